@@ -1,0 +1,237 @@
+// Tyndall: volumetric shadows and light shafts as an OpenGL post-process effect.
+//
+// This header is the whole public interface. An engine creates one Effect per GL context, describes a frame and calls
+// render() once; the effect adds single-scattered light with volumetric shadows to the engine's colour texture.
+//
+//     out(v) = back(v) T(d) + sum over lights of  integral_0^d T(s) [sum_k sigma_k p_k] E V G ds,   T(s) = exp(-sigma_t s)
+//
+// Conventions. World units are the engine's own: nothing depends on their scale. Matrices are column-major, column
+// vectors, destinationFromSource. Colours are linear RGB. Angles are radians. Texture row 0 is the bottom row, as in GL.
+// No function throws. All functions of an Effect, its destructor too, need the GL context current that create() saw.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tyndall {
+
+using Vec3 = std::array<double, 3>;  ///< a position or direction in world space
+using Rgb = std::array<float, 3>;    ///< one value per colour channel, linear
+using Mat4 = std::array<double, 16>; ///< column-major: element (row r, column c) at [4 c + r]
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr Mat4 kIdentity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+inline constexpr int kMaxConstituents = 4;  ///< scattering constituents of a medium
+inline constexpr int kMaxShadowViews = 6;   ///< shadow views of a light: cascades or cube faces
+inline constexpr int kMaxLights = 16;       ///< lights of a frame
+inline constexpr int kMaxImageSize = 16384; ///< pixels per side of every texture
+
+/// Copies a column-major matrix of floats, as GLM and most engines store them.
+Mat4 mat4(const float* columnMajor);
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Results
+
+enum class StatusCode {
+  Ok,
+  NoContext,     ///< no GL context is current, or another than the one the effect was created in
+  ContextTooOld, ///< the context lacks OpenGL 3.3 core or a function of it
+  ShaderError,   ///< a shader did not compile or link: a defect of Tyndall or of the driver
+  OutOfMemory,   ///< GL could not allocate a texture or buffer
+  InvalidConfig, ///< a field of Config breaks its rule
+  InvalidFrame,  ///< a field of Frame breaks its rule
+};
+
+/// The outcome of a call. The message is one line that names field, value and rule; for ShaderError the log follows.
+struct Status {
+  StatusCode code = StatusCode::Ok;
+  std::string message;
+  explicit operator bool() const { return code == StatusCode::Ok; }
+};
+
+// ---------------------------------------------------------------------------------------------------------------------
+// What a frame consists of
+
+/// How clip-space z maps to the depth buffer: glClipControl's GL_NEGATIVE_ONE_TO_ONE (default) or GL_ZERO_TO_ONE.
+enum class ClipDepth { NegativeOneToOne, ZeroToOne };
+
+/// The camera that rendered colour and depth. Perspective and orthographic projections, standard and reversed depth
+/// and an infinite far plane are read off the matrix. glDepthRange is taken to be (0, 1).
+struct Camera {
+  Mat4 viewFromWorld = kIdentity; ///< invertible, affine
+  Mat4 clipFromView = kIdentity;  ///< invertible (an infinite far plane is)
+  ClipDepth clipDepth = ClipDepth::NegativeOneToOne;
+};
+
+/// The engine's depth buffer. Depth at the far value is sky; a pixel whose depth is NaN is left as it is.
+struct SceneDepth {
+  std::uint32_t texture = 0; ///< GL_TEXTURE_2D or GL_TEXTURE_2D_MULTISAMPLE, a depth format or R32F, level 0
+  bool multisampled = false; ///< true for GL_TEXTURE_2D_MULTISAMPLE; inscatter is then the mean over a pixel's samples
+};
+
+enum class LightKind { Directional, Point, Spot };
+
+/// One projection of a shadow map. It owns the part of a camera ray inside its side planes, from its near plane on.
+/// Light that enters through the near plane is unblocked. What lies beyond the far plane is judged by what the map holds
+/// (for cascades only in the last view; elsewhere it falls to the next cascade). A point in several views belongs to the
+/// first of them; a point in none is lit or dark by Light::litOutsideViews.
+struct ShadowView {
+  Mat4 clipFromWorld = kIdentity; ///< invertible; standard or reversed depth is read off the matrix
+  int layer = 0;                  ///< array layer, 0 for a GL_TEXTURE_2D
+};
+
+/// A light's shadow map: depth as seen from the light, compare mode on or off.
+struct ShadowMap {
+  std::uint32_t texture = 0; ///< GL_TEXTURE_2D or GL_TEXTURE_2D_ARRAY, a depth format or R32F; 0: nothing blocks the light
+  bool array = false;        ///< true for GL_TEXTURE_2D_ARRAY
+  ClipDepth clipDepth = ClipDepth::NegativeOneToOne;
+  std::vector<ShadowView> views; ///< 1 to 6: 1-4 cascades (finest first) for a directional light, 1 for a spot, 6 for a point
+};
+
+/// Stained glass seen from the light through the same views as the shadow map. Light is tinted behind the glass.
+struct GlassMap {
+  std::uint32_t colour = 0; ///< RGB(A) transmittance in [0, 1], 1 where there is no glass; 0: no glass. Same target as the shadow map
+  std::uint32_t depth = 0;  ///< depth of the glass nearest to the light, same size, layers and convention as the shadow map
+};
+
+/// The plane where the medium begins, for a directional light: light is attenuated from there on.
+struct MediumBoundary {
+  bool enabled = false;
+  Vec3 point = {0, 0, 0};
+  Vec3 normal = {0, 1, 0}; ///< any length; the light must not travel parallel to the plane
+};
+
+struct Light {
+  LightKind kind = LightKind::Directional;
+  Vec3 direction = {0, -1, 0}; ///< directional, spot: where the light travels to; any length but 0
+  Vec3 position = {0, 0, 0};   ///< point, spot
+  Rgb colour = {1, 1, 1};      ///< directional: irradiance on a plane facing the light; point, spot: radiant intensity; >= 0
+  double range = kInfinity;    ///< point, spot: no light beyond; > 0
+  double innerConeAngle = 0;   ///< spot: full intensity up to this half angle, 0 <= inner <= outer
+  double outerConeAngle = 0.7853981633974483; ///< spot: none beyond this half angle, 0 < outer <= pi/2. glTF's KHR_lights_punctual falloff
+  bool litOutsideViews = true;                ///< visibility where no shadow view reaches
+  MediumBoundary boundary;                    ///< directional
+  ShadowMap shadow;
+  GlassMap glass;
+};
+
+/// Phase functions, normalised to 1 over the sphere, in 1/sr. theta is the angle between the light's travel direction
+/// and the direction to the eye: forward scattering (g > 0) brightens the view towards the light.
+enum class Phase {
+  Isotropic,       ///< 1 / (4 pi)
+  Rayleigh,        ///< 3 / (16 pi) (1 + cos^2 theta)
+  HenyeyGreenstein,///< 1 / (4 pi) (1 - g^2) / (1 + g^2 - 2 g cos theta)^(3/2)
+  CornetteShanks,  ///< 3 / (8 pi) (1 - g^2) / (2 + g^2) (1 + cos^2 theta) / (1 + g^2 - 2 g cos theta)^(3/2)
+};
+
+struct Constituent {
+  Rgb scattering = {0, 0, 0}; ///< scattering coefficient, 1/world unit, finite and >= 0
+  Phase phase = Phase::Isotropic;
+  float g = 0; ///< asymmetry of HenyeyGreenstein and CornetteShanks, -1 < g < 1
+};
+
+/// A homogeneous medium that fills all space. Extinction is the sum of all scattering and the absorption.
+struct Medium {
+  std::vector<Constituent> constituents; ///< at most 4
+  Rgb absorption = {0, 0, 0};            ///< 1/world unit, finite and >= 0
+  double farDistance = kInfinity;        ///< where rays to the sky end, world units, > 0
+};
+
+enum class Technique {
+  Exact, ///< every shadow texel along every pixel's ray, closed form or quadrature per lit span: the reference
+};
+
+enum class ShadowFilter {
+  Nearest,  ///< a shadow texel is a flat step; where the ray crosses its depth is solved for, not sampled
+  Bilinear, ///< 2x2 percentage-closer filtering, integrated along the ray
+};
+
+struct Settings {
+  Technique technique = Technique::Exact;
+  ShadowFilter shadowFilter = ShadowFilter::Nearest;
+};
+
+/// Textures of the engine's own to write instead of, or besides, blending into Frame::colour. GL_TEXTURE_2D, a float
+/// colour format (RGBA16F, RGBA32F, R11F_G11F_B10F, RGB16F, RGB32F), the size of Frame::width x height.
+struct Output {
+  std::uint32_t inscatter = 0;     ///< receives the inscattered radiance; 0: not wanted
+  std::uint32_t transmittance = 0; ///< receives T(d) per channel; 0: not wanted
+};
+
+/// All that one render() call reads. Every texture keeps its parameters; the effect binds samplers of its own.
+struct Frame {
+  int width = 0; ///< pixels, 1 to 16384
+  int height = 0;
+  std::uint32_t colour = 0; ///< back buffer, GL_TEXTURE_2D, linear HDR radiance in a float format: blended in place; 0 only with an Output
+  SceneDepth depth;
+  Camera camera;
+  std::vector<Light> lights; ///< at most 16
+  Medium medium;
+  Settings settings;
+  Output output;
+};
+
+// ---------------------------------------------------------------------------------------------------------------------
+// The effect
+
+/// How the time of a pass is taken: not at all, by GL timer queries, or by wall clock around glFinish.
+enum class PassTiming { Off, TimerQuery, Finish };
+
+/// What became of one pass in the last frame.
+struct PassStatistics {
+  std::string name;
+  std::string skipped;     ///< why it did not run; empty if it ran
+  double milliseconds = 0; ///< 0 if skipped or not timed
+};
+
+struct Statistics {
+  std::vector<PassStatistics> passes;
+  std::uint64_t bytes = 0;      ///< GL memory the effect holds in textures and buffers
+  int compiledPrograms = 0; ///< shader variants compiled so far
+};
+
+/// Resolves a GL function by name, as glfwGetProcAddress or eglGetProcAddress do.
+using GlLoader = void* (*)(const char* name);
+
+struct Config {
+  GlLoader loader = nullptr;
+  PassTiming timing = PassTiming::Off;
+};
+
+struct CreateResult;
+
+class Effect {
+public:
+  /// Builds an effect in the current context: OpenGL 3.3 core or later. Shaders compile when first needed.
+  static CreateResult create(const Config& config);
+  ~Effect();
+  Effect(const Effect&) = delete;
+  Effect& operator=(const Effect&) = delete;
+
+  /// Adds the shafts to the frame. Unless the status is Ok nothing was drawn and the colour is untouched. GL state on
+  /// return equals GL state on entry.
+  Status render(const Frame& frame);
+
+  /// About the last render(). With PassTiming::TimerQuery this waits for the GPU.
+  Statistics statistics();
+
+  /// Compiles every shader variant now instead of when first needed.
+  Status compileAll();
+
+private:
+  struct State;
+  explicit Effect(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+struct CreateResult {
+  std::unique_ptr<Effect> effect; ///< null unless status is Ok
+  Status status;
+};
+
+} // namespace tyndall

@@ -1,0 +1,124 @@
+// The host's picture of a glTF 2.0 scene: plain data, no GL. Right-handed, y up, as in glTF.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <optional>
+#include <string>
+#include <tyndall/tyndall.h>
+#include <vector>
+
+namespace host {
+
+struct Vertex {
+  glm::vec3 position{0};
+  glm::vec3 normal{0, 1, 0};
+  glm::vec2 uv{0};
+};
+
+enum class Topology { Points, Lines, Triangles };
+
+/// Indexed geometry of one material. Strips, fans and loops are unrolled by the loader; indices are in range.
+struct Primitive {
+  Topology topology = Topology::Triangles;
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;
+  int material = 0; ///< index into Scene::materials, always valid
+};
+
+struct Mesh {
+  std::string name;
+  std::vector<Primitive> primitives;
+};
+
+enum class Wrap { Repeat, MirroredRepeat, ClampToEdge };
+
+/// A base-colour texture: sRGB bytes RGBA, row 0 is v = 0 as in glTF (the top row).
+struct Texture {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgba;
+  Wrap wrapU = Wrap::Repeat;
+  Wrap wrapV = Wrap::Repeat;
+};
+
+enum class AlphaMode { Opaque, Mask, Blend };
+
+struct Material {
+  std::string name;
+  glm::vec4 baseColour{1};          ///< linear factor, alpha in w
+  int texture = -1;                 ///< index into Scene::textures, or -1
+  AlphaMode alphaMode = AlphaMode::Opaque;
+  float alphaCutoff = 0.5F;
+  float transmission = 0;           ///< KHR_materials_transmission's factor
+  glm::vec3 emission{0};            ///< linear radiance
+  bool isGlass() const { return transmission > 0; } ///< casts no shadow, tints the light by baseColour * transmission
+};
+
+struct Camera {
+  std::string name;
+  bool orthographic = false;
+  double verticalFov = 0.8;  ///< radians, perspective
+  double halfHeight = 1;     ///< world units, orthographic
+  double nearPlane = 0.1;
+  double farPlane = 0;       ///< 0: infinite (perspective)
+};
+
+struct Light {
+  std::string name;
+  tyndall::LightKind kind = tyndall::LightKind::Directional;
+  glm::vec3 colour{1};       ///< colour x intensity: irradiance or radiant intensity
+  double range = tyndall::kInfinity;
+  double innerConeAngle = 0;
+  double outerConeAngle = 0.7853981633974483;
+};
+
+struct Node {
+  std::string name;
+  int parent = -1; ///< index into Scene::nodes; parents come before children
+  glm::dvec3 translation{0};
+  glm::dquat rotation{1, 0, 0, 0};
+  glm::dvec3 scale{1};
+  std::optional<glm::dmat4> matrix; ///< replaces translation, rotation and scale
+  int mesh = -1;
+  int camera = -1;
+  int light = -1;
+};
+
+enum class AnimationPath { Translation, Rotation, Scale };
+enum class Interpolation { Step, Linear, CubicSpline };
+
+struct AnimationChannel {
+  int node = 0;
+  AnimationPath path = AnimationPath::Translation;
+  Interpolation interpolation = Interpolation::Linear;
+  std::vector<float> times;       ///< seconds, increasing
+  std::vector<glm::vec4> values;  ///< one a time (CubicSpline: in-tangent, value, out-tangent)
+};
+
+struct Scene {
+  std::string name;
+  std::vector<Node> nodes;
+  std::vector<Mesh> meshes;
+  std::vector<Material> materials; ///< never empty
+  std::vector<Texture> textures;
+  std::vector<Camera> cameras;
+  std::vector<Light> lights;
+  std::vector<AnimationChannel> animation; ///< all animations of the file, played at once
+  std::optional<tyndall::Medium> medium;   ///< extras.tyndall.medium of the file's scene
+  glm::vec3 skyRadiance{0.0F};             ///< extras.tyndall.sky: radiance of the sky and of ambient light
+  std::vector<std::string> notes;          ///< what was ignored, clamped or made up, a line each
+};
+
+/// The node transforms at a time in seconds, worldFromNode for each node.
+std::vector<glm::dmat4> poseAt(const Scene& scene, double seconds);
+
+/// The bounds of all triangles in a pose, low and high corner; both 0 if there is none.
+struct Bounds {
+  glm::dvec3 low{0};
+  glm::dvec3 high{0};
+};
+Bounds boundsOf(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode);
+
+} // namespace host
