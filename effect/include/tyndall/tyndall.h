@@ -3,11 +3,13 @@
 // This header is the whole public interface. An engine creates one Effect per GL context, describes a frame and calls
 // render() once; the effect adds single-scattered light with volumetric shadows to the engine's colour texture.
 //
-//     out(v) = back(v) T(d) + sum over lights of  integral_0^d T(s) [sum_k sigma_k p_k] E V G ds,   T(s) = exp(-sigma_t s)
+//     out(v) = back(v) T(d) + sum over lights of  integral_0^d T(s) [sum_k sigma_k p_k] E V G ds,   T(s) = exp(-sigma_t
+//     s)
 //
 // Conventions. World units are the engine's own: nothing depends on their scale. Matrices are column-major, column
-// vectors, destinationFromSource. Colours are linear RGB. Angles are radians. Texture row 0 is the bottom row, as in GL.
-// No function throws. All functions of an Effect, its destructor too, need the GL context current that create() saw.
+// vectors, destinationFromSource. Colours are linear RGB. Angles are radians. Texture row 0 is the bottom row, as in
+// GL. No function throws. All functions of an Effect, its destructor too, need the GL context current that create()
+// saw.
 #pragma once
 
 #include <array>
@@ -77,9 +79,9 @@ struct SceneDepth {
 enum class LightKind { Directional, Point, Spot };
 
 /// One projection of a shadow map. It owns the part of a camera ray inside its side planes, from its near plane on.
-/// Light that enters through the near plane is unblocked. What lies beyond the far plane is judged by what the map holds
-/// (for cascades only in the last view; elsewhere it falls to the next cascade). A point in several views belongs to the
-/// first of them; a point in none is lit or dark by Light::litOutsideViews.
+/// Light that enters through the near plane is unblocked. What lies beyond the far plane is judged by what the map
+/// holds (for cascades only in the last view; elsewhere it falls to the next cascade). A point in several views belongs
+/// to the first of them; a point in none is lit or dark by Light::litOutsideViews.
 struct ShadowView {
   Mat4 clipFromWorld = kIdentity; ///< invertible; standard or reversed depth is read off the matrix
   int layer = 0;                  ///< array layer, 0 for a GL_TEXTURE_2D
@@ -87,16 +89,20 @@ struct ShadowView {
 
 /// A light's shadow map: depth as seen from the light, compare mode on or off.
 struct ShadowMap {
-  std::uint32_t texture = 0; ///< GL_TEXTURE_2D or GL_TEXTURE_2D_ARRAY, a depth format or R32F; 0: nothing blocks the light
-  bool array = false;        ///< true for GL_TEXTURE_2D_ARRAY
+  std::uint32_t texture =
+      0;              ///< GL_TEXTURE_2D or GL_TEXTURE_2D_ARRAY, a depth format or R32F; 0: nothing blocks the light
+  bool array = false; ///< true for GL_TEXTURE_2D_ARRAY
   ClipDepth clipDepth = ClipDepth::NegativeOneToOne;
-  std::vector<ShadowView> views; ///< 1 to 6: 1-4 cascades (finest first) for a directional light, 1 for a spot, 6 for a point
+  std::vector<ShadowView>
+      views; ///< 1 to 6: 1-4 cascades (finest first) for a directional light, 1 for a spot, 6 for a point
 };
 
 /// Stained glass seen from the light through the same views as the shadow map. Light is tinted behind the glass.
 struct GlassMap {
-  std::uint32_t colour = 0; ///< RGB(A) transmittance in [0, 1], 1 where there is no glass; 0: no glass. Same target as the shadow map
-  std::uint32_t depth = 0;  ///< depth of the glass nearest to the light, same size, layers and convention as the shadow map
+  std::uint32_t colour =
+      0; ///< RGB(A) transmittance in [0, 1], 1 where there is no glass; 0: no glass. Same target as the shadow map
+  std::uint32_t depth =
+      0; ///< depth of the glass nearest to the light, same size, layers and convention as the shadow map
 };
 
 /// The plane where the medium begins, for a directional light: light is attenuated from there on.
@@ -110,12 +116,13 @@ struct Light {
   LightKind kind = LightKind::Directional;
   Vec3 direction = {0, -1, 0}; ///< directional, spot: where the light travels to; any length but 0
   Vec3 position = {0, 0, 0};   ///< point, spot
-  Rgb colour = {1, 1, 1};      ///< directional: irradiance on a plane facing the light; point, spot: radiant intensity; >= 0
-  double range = kInfinity;    ///< point, spot: no light beyond; > 0
-  double innerConeAngle = 0;   ///< spot: full intensity up to this half angle, 0 <= inner <= outer
-  double outerConeAngle = 0.7853981633974483; ///< spot: none beyond this half angle, 0 < outer <= pi/2. glTF's KHR_lights_punctual falloff
-  bool litOutsideViews = true;                ///< visibility where no shadow view reaches
-  MediumBoundary boundary;                    ///< directional
+  Rgb colour = {1, 1, 1}; ///< directional: irradiance on a plane facing the light; point, spot: radiant intensity; >= 0
+  double range = kInfinity;  ///< point, spot: no light beyond; > 0
+  double innerConeAngle = 0; ///< spot: full intensity up to this half angle, 0 <= inner <= outer
+  double outerConeAngle =
+      0.7853981633974483; ///< spot: none beyond this half angle, 0 < outer <= pi/2. glTF's KHR_lights_punctual falloff
+  bool litOutsideViews = true; ///< visibility where no shadow view reaches
+  MediumBoundary boundary;     ///< directional
   ShadowMap shadow;
   GlassMap glass;
 };
@@ -123,10 +130,10 @@ struct Light {
 /// Phase functions, normalised to 1 over the sphere, in 1/sr. theta is the angle between the light's travel direction
 /// and the direction to the eye: forward scattering (g > 0) brightens the view towards the light.
 enum class Phase {
-  Isotropic,       ///< 1 / (4 pi)
-  Rayleigh,        ///< 3 / (16 pi) (1 + cos^2 theta)
-  HenyeyGreenstein,///< 1 / (4 pi) (1 - g^2) / (1 + g^2 - 2 g cos theta)^(3/2)
-  CornetteShanks,  ///< 3 / (8 pi) (1 - g^2) / (2 + g^2) (1 + cos^2 theta) / (1 + g^2 - 2 g cos theta)^(3/2)
+  Isotropic,        ///< 1 / (4 pi)
+  Rayleigh,         ///< 3 / (16 pi) (1 + cos^2 theta)
+  HenyeyGreenstein, ///< 1 / (4 pi) (1 - g^2) / (1 + g^2 - 2 g cos theta)^(3/2)
+  CornetteShanks,   ///< 3 / (8 pi) (1 - g^2) / (2 + g^2) (1 + cos^2 theta) / (1 + g^2 - 2 g cos theta)^(3/2)
 };
 
 struct Constituent {
@@ -167,7 +174,8 @@ struct Output {
 struct Frame {
   int width = 0; ///< pixels, 1 to 16384
   int height = 0;
-  std::uint32_t colour = 0; ///< back buffer, GL_TEXTURE_2D, linear HDR radiance in a float format: blended in place; 0 only with an Output
+  std::uint32_t colour =
+      0; ///< back buffer, GL_TEXTURE_2D, linear HDR radiance in a float format: blended in place; 0 only with an Output
   SceneDepth depth;
   Camera camera;
   std::vector<Light> lights; ///< at most 16
@@ -191,7 +199,7 @@ struct PassStatistics {
 
 struct Statistics {
   std::vector<PassStatistics> passes;
-  std::uint64_t bytes = 0;      ///< GL memory the effect holds in textures and buffers
+  std::uint64_t bytes = 0;  ///< GL memory the effect holds in textures and buffers
   int compiledPrograms = 0; ///< shader variants compiled so far
 };
 

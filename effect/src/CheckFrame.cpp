@@ -1,0 +1,168 @@
+#include "CheckFrame.h"
+
+#include "optics/Matrices.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace tyndall {
+
+namespace {
+
+Status invalid(const std::string& field, const std::string& value, const std::string& rule) {
+  return {StatusCode::InvalidFrame, "Frame::" + field + (value.empty() ? "" : " is " + value) + ": " + rule};
+}
+
+std::string text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%g", value);
+  return buffer;
+}
+
+template <typename Vector>
+std::string textOf(const Vector& v) {
+  return "(" + text(v[0]) + ", " + text(v[1]) + ", " + text(v[2]) + ")";
+}
+
+template <typename Vector>
+bool isFinite(const Vector& v) {
+  for (const auto x : v)
+    if (!std::isfinite(x)) return false;
+  return true;
+}
+
+template <typename Vector>
+bool isNonNegative(const Vector& v) {
+  for (const auto x : v)
+    if (!(std::isfinite(x) && x >= 0)) return false;
+  return true;
+}
+
+bool isZero(const Vec3& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
+
+Status checkMatrix(const std::string& field, const Mat4& matrix) {
+  if (!isFinite(matrix)) return invalid(field, "not finite", "every element must be a finite number");
+  if (!optics::isInvertible(optics::toGlm(matrix))) return invalid(field, "singular", "the matrix must be invertible");
+  return {};
+}
+
+Status checkCamera(const Camera& camera) {
+  if (Status s = checkMatrix("camera.viewFromWorld", camera.viewFromWorld); !s) return s;
+  const Mat4& view = camera.viewFromWorld;
+  if (view[3] != 0 || view[7] != 0 || view[11] != 0 || view[15] != 1)
+    return invalid("camera.viewFromWorld", "not affine", "its last row must be (0, 0, 0, 1)");
+  return checkMatrix("camera.clipFromView", camera.clipFromView);
+}
+
+Status checkMedium(const Medium& medium) {
+  if (medium.constituents.size() > kMaxConstituents)
+    return invalid("medium.constituents", std::to_string(medium.constituents.size()) + " long",
+                   "at most 4 are allowed");
+  for (std::size_t i = 0; i < medium.constituents.size(); ++i) {
+    const Constituent& c = medium.constituents[i];
+    const std::string field = "medium.constituents[" + std::to_string(i) + "].";
+    if (!isNonNegative(c.scattering))
+      return invalid(field + "scattering", textOf(c.scattering), "must be finite and >= 0");
+    if (c.phase < Phase::Isotropic || c.phase > Phase::CornetteShanks)
+      return invalid(field + "phase", std::to_string(static_cast<int>(c.phase)), "must be one of the enumerators");
+    if (!(c.g > -1 && c.g < 1)) return invalid(field + "g", text(c.g), "must lie between -1 and 1, both excluded");
+  }
+  if (!isNonNegative(medium.absorption))
+    return invalid("medium.absorption", textOf(medium.absorption), "must be finite and >= 0");
+  if (!(medium.farDistance > 0)) return invalid("medium.farDistance", text(medium.farDistance), "must be > 0");
+  return {};
+}
+
+Status checkViews(const std::string& light, LightKind kind, const ShadowMap& shadow) {
+  const std::size_t count = shadow.views.size();
+  const char* rule = kind == LightKind::Directional ? "a directional light has 1 to 4 (cascades)"
+                     : kind == LightKind::Spot      ? "a spot light has 1"
+                                                    : "a point light has 1 to 6 (cube faces)";
+  const std::size_t most = kind == LightKind::Directional ? 4 : kind == LightKind::Spot ? 1 : 6;
+  if (count < 1 || count > most) return invalid(light + "shadow.views", std::to_string(count) + " long", rule);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string field = light + "shadow.views[" + std::to_string(i) + "].";
+    if (Status s = checkMatrix(field + "clipFromWorld", shadow.views[i].clipFromWorld); !s) return s;
+    if (shadow.views[i].layer < 0 || (!shadow.array && shadow.views[i].layer != 0))
+      return invalid(field + "layer", std::to_string(shadow.views[i].layer),
+                     shadow.array ? "must be >= 0" : "must be 0 for a GL_TEXTURE_2D");
+  }
+  return {};
+}
+
+Status checkBoundary(const std::string& field, const Light& light) {
+  const MediumBoundary& boundary = light.boundary;
+  if (!boundary.enabled) return {};
+  if (light.kind != LightKind::Directional)
+    return invalid(field + "boundary.enabled", "true", "only a directional light may have a boundary");
+  if (!isFinite(boundary.point)) return invalid(field + "boundary.point", textOf(boundary.point), "must be finite");
+  if (!isFinite(boundary.normal) || isZero(boundary.normal))
+    return invalid(field + "boundary.normal", textOf(boundary.normal), "must be finite and not 0");
+  const glm::dvec3 n = glm::normalize(optics::toGlm(boundary.normal)),
+                   d = glm::normalize(optics::toGlm(light.direction));
+  if (std::abs(glm::dot(n, d)) < 1e-6) // the path to the plane would be endless
+    return invalid(field + "boundary.normal", textOf(boundary.normal),
+                   "the light must not travel parallel to the plane");
+  return {};
+}
+
+Status checkSpot(const std::string& field, const Light& light) {
+  if (!(light.outerConeAngle > 0 && light.outerConeAngle <= 1.5707963267948968))
+    return invalid(field + "outerConeAngle", text(light.outerConeAngle), "must be > 0 and <= pi/2");
+  if (!(light.innerConeAngle >= 0 && light.innerConeAngle <= light.outerConeAngle))
+    return invalid(field + "innerConeAngle", text(light.innerConeAngle), "must be >= 0 and <= outerConeAngle");
+  return {};
+}
+
+Status checkLight(const std::string& field, const Light& light) {
+  if (light.kind < LightKind::Directional || light.kind > LightKind::Spot)
+    return invalid(field + "kind", std::to_string(static_cast<int>(light.kind)), "must be one of the enumerators");
+  if (!isNonNegative(light.colour)) return invalid(field + "colour", textOf(light.colour), "must be finite and >= 0");
+  if (light.kind != LightKind::Point && (!isFinite(light.direction) || isZero(light.direction)))
+    return invalid(field + "direction", textOf(light.direction), "must be finite and not 0");
+  if (light.kind != LightKind::Directional) {
+    if (!isFinite(light.position)) return invalid(field + "position", textOf(light.position), "must be finite");
+    if (!(light.range > 0)) return invalid(field + "range", text(light.range), "must be > 0");
+  }
+  if (light.kind == LightKind::Spot)
+    if (Status s = checkSpot(field, light); !s) return s;
+  if (Status s = checkBoundary(field, light); !s) return s;
+  if (light.shadow.texture != 0)
+    if (Status s = checkViews(field, light.kind, light.shadow); !s) return s;
+  if ((light.glass.colour != 0) != (light.glass.depth != 0))
+    return invalid(field + (light.glass.colour ? "glass.depth" : "glass.colour"), "0",
+                   "a glass map needs both its colour and its depth");
+  if (light.glass.colour != 0 && light.shadow.texture == 0)
+    return invalid(field + "shadow.texture", "0", "a glass map needs a shadow map, whose views it shares");
+  return {};
+}
+
+Status checkSettings(const Settings& settings) {
+  if (settings.technique != Technique::Exact)
+    return invalid("settings.technique", std::to_string(static_cast<int>(settings.technique)),
+                   "must be one of the enumerators");
+  if (settings.shadowFilter != ShadowFilter::Nearest && settings.shadowFilter != ShadowFilter::Bilinear)
+    return invalid("settings.shadowFilter", std::to_string(static_cast<int>(settings.shadowFilter)),
+                   "must be one of the enumerators");
+  return {};
+}
+
+} // namespace
+
+Status checkValues(const Frame& frame) {
+  if (frame.width < 1 || frame.width > kMaxImageSize)
+    return invalid("width", std::to_string(frame.width), "must be 1 to 16384");
+  if (frame.height < 1 || frame.height > kMaxImageSize)
+    return invalid("height", std::to_string(frame.height), "must be 1 to 16384");
+  if (frame.colour == 0 && frame.output.inscatter == 0 && frame.output.transmittance == 0)
+    return invalid("colour", "0", "may only be left out if output names a texture to write");
+  if (Status s = checkCamera(frame.camera); !s) return s;
+  if (frame.lights.size() > kMaxLights)
+    return invalid("lights", std::to_string(frame.lights.size()) + " long", "at most 16 are allowed");
+  for (std::size_t i = 0; i < frame.lights.size(); ++i)
+    if (Status s = checkLight("lights[" + std::to_string(i) + "].", frame.lights[i]); !s) return s;
+  if (Status s = checkMedium(frame.medium); !s) return s;
+  return checkSettings(frame.settings);
+}
+
+} // namespace tyndall

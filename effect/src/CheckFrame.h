@@ -1,0 +1,28 @@
+// Every precondition of Config and Frame, with its message. A message is one line: the field, its value and the rule.
+#pragma once
+
+#include "gl/Functions.h"
+
+#include <tyndall/tyndall.h>
+
+namespace tyndall {
+
+/// What the checks learn about a frame's textures.
+struct FrameTextures {
+  struct Shadow {
+    int width = 0;
+    int height = 0;
+  };
+  int depthSamples = 1;
+  float maxRadiance = 0;       ///< largest finite value that all written formats hold
+  std::vector<Shadow> shadows; ///< one per light, 0 x 0 without a shadow map
+};
+
+/// Checks numbers only: sizes, matrices, lights, medium, settings.
+Status checkValues(const Frame& frame);
+
+/// Checks the frame's textures in the current context: existence, target, format, size. Binds textures: call it under a
+/// StateGuard. The values must have passed.
+Status checkTextures(const gl::Functions& gl, const Frame& frame, FrameTextures& textures);
+
+} // namespace tyndall

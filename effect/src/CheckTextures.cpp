@@ -1,0 +1,199 @@
+#include "CheckFrame.h"
+#include "gl/Enums.h"
+
+#include <algorithm>
+#include <string>
+
+namespace tyndall {
+
+namespace {
+
+using namespace gl; // GL's enumerants
+
+enum class Use { Colour, Depth, Tint };
+
+struct Info {
+  Int width = 0;
+  Int height = 0;
+  Int layers = 0;
+  Int format = 0;
+  Int samples = 0;
+};
+
+Status invalid(const std::string& field, Uint name, const std::string& rule) {
+  return {StatusCode::InvalidFrame, "Frame::" + field + " is texture " + std::to_string(name) + ": " + rule};
+}
+
+const char* targetName(Enum target) {
+  return target == TEXTURE_2D         ? "GL_TEXTURE_2D"
+         : target == TEXTURE_2D_ARRAY ? "GL_TEXTURE_2D_ARRAY"
+                                      : "GL_TEXTURE_2D_MULTISAMPLE";
+}
+
+bool isDepthFormat(Int format) {
+  switch (static_cast<Enum>(format)) {
+  case DEPTH_COMPONENT:
+  case DEPTH_COMPONENT16:
+  case DEPTH_COMPONENT24:
+  case DEPTH_COMPONENT32:
+  case DEPTH_COMPONENT32F:
+  case DEPTH24_STENCIL8:
+  case DEPTH32F_STENCIL8:
+  case R32F:
+    return true;
+  default:
+    return false;
+  }
+}
+
+bool isFloatColour(Int format) {
+  switch (static_cast<Enum>(format)) {
+  case RGB16F:
+  case RGBA16F:
+  case RGB32F:
+  case RGBA32F:
+  case R11F_G11F_B10F:
+    return true;
+  default:
+    return false;
+  }
+}
+
+bool isTint(Int format) {
+  switch (static_cast<Enum>(format)) {
+  case RGB8:
+  case RGBA8:
+  case SRGB8:
+  case SRGB8_ALPHA8:
+    return true;
+  default:
+    return isFloatColour(format);
+  }
+}
+
+// Largest finite value of a colour format.
+float largestValue(Int format) {
+  switch (static_cast<Enum>(format)) {
+  case RGB32F:
+  case RGBA32F:
+    return 3e38F;
+  case R11F_G11F_B10F:
+    return 64512; // of its 10-bit blue
+  default:
+    return 65504;
+  }
+}
+
+// Binds a texture to unit 0 and reads what it is; a texture of another target leaves the old binding, and one GL error,
+// which is taken back.
+Status inspect(const Functions& gl, const std::string& field, Uint name, Enum target, Use use, Info& info) {
+  if (!gl.IsTexture(name))
+    return invalid(field, name, "not the name of a texture in this context (deleted, or never bound?)");
+  gl.ActiveTexture(TEXTURE0);
+  gl.BindTexture(target, 0);
+  gl.BindTexture(target, name);
+  Int bound = 0;
+  gl.GetIntegerv(target == TEXTURE_2D         ? TEXTURE_BINDING_2D
+                 : target == TEXTURE_2D_ARRAY ? TEXTURE_BINDING_2D_ARRAY
+                                              : TEXTURE_BINDING_2D_MULTISAMPLE,
+                 &bound);
+  if (static_cast<Uint>(bound) != name) {
+    gl.GetError();
+    return invalid(field, name, std::string("must be a ") + targetName(target));
+  }
+  gl.GetTexLevelParameteriv(target, 0, TEXTURE_WIDTH, &info.width);
+  gl.GetTexLevelParameteriv(target, 0, TEXTURE_HEIGHT, &info.height);
+  gl.GetTexLevelParameteriv(target, 0, TEXTURE_DEPTH, &info.layers);
+  gl.GetTexLevelParameteriv(target, 0, TEXTURE_INTERNAL_FORMAT, &info.format);
+  gl.GetTexLevelParameteriv(target, 0, TEXTURE_SAMPLES, &info.samples);
+  if (info.width < 1) return invalid(field, name, "has no level 0");
+  if (target != TEXTURE_2D_MULTISAMPLE) {
+    Int base = 0;
+    gl.GetTexParameteriv(target, TEXTURE_BASE_LEVEL, &base);
+    if (base != 0) return invalid(field, name, "GL_TEXTURE_BASE_LEVEL must be 0");
+  }
+  if (use == Use::Depth && !isDepthFormat(info.format)) return invalid(field, name, "must have a depth format or R32F");
+  if (use == Use::Colour && !isFloatColour(info.format))
+    return invalid(field, name, "must have a float colour format (RGBA16F, RGBA32F, R11F_G11F_B10F, RGB16F, RGB32F)");
+  if (use == Use::Tint && !isTint(info.format))
+    return invalid(field, name, "must have an RGB or RGBA format of 8 bits or floats");
+  if (use == Use::Depth && gl.version >= 43) {
+    Int mode = DEPTH_COMPONENT;
+    gl.GetTexParameteriv(target, DEPTH_STENCIL_TEXTURE_MODE, &mode);
+    if (static_cast<Enum>(mode) != DEPTH_COMPONENT)
+      return invalid(field, name, "GL_DEPTH_STENCIL_TEXTURE_MODE must be GL_DEPTH_COMPONENT");
+  }
+  return {};
+}
+
+Status sized(const std::string& field, Uint name, const Info& info, int width, int height) {
+  if (info.width == width && info.height == height) return {};
+  return invalid(field, name,
+                 "is " + std::to_string(info.width) + " x " + std::to_string(info.height) + ", must be " +
+                     std::to_string(width) + " x " + std::to_string(height));
+}
+
+Status checkTarget(const Functions& gl, const Frame& frame, const std::string& field, Uint name, float& maxRadiance) {
+  if (name == 0) return {};
+  Info info;
+  if (Status s = inspect(gl, field, name, TEXTURE_2D, Use::Colour, info); !s) return s;
+  maxRadiance = std::min(maxRadiance, largestValue(info.format));
+  return sized(field, name, info, frame.width, frame.height);
+}
+
+Status checkDistinct(const Frame& frame) {
+  const Output& out = frame.output;
+  if (out.inscatter && (out.inscatter == frame.colour || out.inscatter == out.transmittance))
+    return invalid("output.inscatter", out.inscatter, "must differ from colour and output.transmittance");
+  if (out.transmittance && out.transmittance == frame.colour)
+    return invalid("output.transmittance", out.transmittance, "must differ from colour");
+  return {};
+}
+
+Status checkShadow(const Functions& gl, const std::string& field, const Light& light, FrameTextures::Shadow& shadow) {
+  if (light.shadow.texture == 0) return {};
+  const Enum target = light.shadow.array ? TEXTURE_2D_ARRAY : TEXTURE_2D;
+  Info map;
+  if (Status s = inspect(gl, field + "shadow.texture", light.shadow.texture, target, Use::Depth, map); !s) return s;
+  for (std::size_t i = 0; i < light.shadow.views.size(); ++i)
+    if (light.shadow.array && light.shadow.views[i].layer >= map.layers)
+      return {StatusCode::InvalidFrame, "Frame::" + field + "shadow.views[" + std::to_string(i) + "].layer is " +
+                                            std::to_string(light.shadow.views[i].layer) + ": the shadow map has " +
+                                            std::to_string(map.layers) + " layers"};
+  shadow = {map.width, map.height};
+  if (light.glass.colour == 0) return {};
+  Info colour, depth;
+  if (Status s = inspect(gl, field + "glass.colour", light.glass.colour, target, Use::Tint, colour); !s) return s;
+  if (Status s = sized(field + "glass.colour", light.glass.colour, colour, map.width, map.height); !s) return s;
+  if (Status s = inspect(gl, field + "glass.depth", light.glass.depth, target, Use::Depth, depth); !s) return s;
+  if (Status s = sized(field + "glass.depth", light.glass.depth, depth, map.width, map.height); !s) return s;
+  if (colour.layers < map.layers)
+    return invalid(field + "glass.colour", light.glass.colour, "has fewer layers than the shadow map");
+  if (depth.layers < map.layers)
+    return invalid(field + "glass.depth", light.glass.depth, "has fewer layers than the shadow map");
+  return {};
+}
+
+} // namespace
+
+Status checkTextures(const Functions& gl, const Frame& frame, FrameTextures& textures) {
+  textures.maxRadiance = 3e38F;
+  if (Status s = checkDistinct(frame); !s) return s;
+  if (Status s = checkTarget(gl, frame, "colour", frame.colour, textures.maxRadiance); !s) return s;
+  if (Status s = checkTarget(gl, frame, "output.inscatter", frame.output.inscatter, textures.maxRadiance); !s) return s;
+  if (Status s = checkTarget(gl, frame, "output.transmittance", frame.output.transmittance, textures.maxRadiance); !s)
+    return s;
+  Info depth;
+  const Enum target = frame.depth.multisampled ? TEXTURE_2D_MULTISAMPLE : TEXTURE_2D;
+  if (Status s = inspect(gl, "depth.texture", frame.depth.texture, target, Use::Depth, depth); !s) return s;
+  if (Status s = sized("depth.texture", frame.depth.texture, depth, frame.width, frame.height); !s) return s;
+  textures.depthSamples = frame.depth.multisampled ? std::clamp(depth.samples, 1, 16) : 1;
+  for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+    textures.shadows.emplace_back();
+    const std::string field = "lights[" + std::to_string(i) + "].";
+    if (Status s = checkShadow(gl, field, frame.lights[i], textures.shadows.back()); !s) return s;
+  }
+  return {};
+}
+
+} // namespace tyndall

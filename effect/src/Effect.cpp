@@ -1,0 +1,251 @@
+#include "CheckFrame.h"
+#include "PassRecorder.h"
+#include "Targets.h"
+#include "gl/Program.h"
+#include "gl/StateGuard.h"
+#include "optics/Blocks.h"
+#include "passes/Composite.h"
+#include "passes/Exact.h"
+
+#include <algorithm>
+#include <array>
+
+// The data flow of a frame. Boxes are passes (effect/src/passes, glsl/passes), the rest are textures.
+//
+//   scene depth --+
+//   shadow map ---+--> [exact] one draw per light --+--> blended into colour            (no Output asked for)
+//   glass map ----+                                 |
+//                                                   +--> inscatter, transmittance --> [composite] --> colour
+//
+namespace tyndall {
+
+struct Effect::State {
+  explicit State(const Config& config)
+      : timing(config.timing), programs(gl), targets(gl), recorder(gl, config.timing) {}
+
+  gl::Functions gl;
+  PassTiming timing;
+  gl::ProgramCache programs;
+  Targets targets;
+  PassRecorder recorder;
+  gl::VertexArray vertexArray;
+  gl::Framebuffer framebuffer;
+  gl::Sampler nearestSampler;
+  std::array<gl::Buffer, gl::kUniformBindings> uniformBuffers;
+
+  // Where a frame's light goes: straight into colour, or into two textures first.
+  struct Destination {
+    gl::Uint inscatter = 0, transmittance = 0; // 0, 0: straight into colour
+    bool composite = false;                    // blend them into colour afterwards
+  };
+
+  void createObjects();
+  Status checkContext() const;
+  Status renderChecked(const Frame& frame, const FrameTextures& textures);
+  Status chooseDestination(const Frame& frame, bool changesColour, Destination& destination);
+  Status attach(const Frame& frame, gl::Uint first, gl::Uint second);
+  Status drawLights(const Frame& frame, const FrameTextures& textures, const Destination& destination);
+  void upload(int binding, const void* data, std::size_t size);
+  passes::PassContext passContext() { return {gl, programs, nearestSampler.name()}; }
+  Status shaderError() const { return {StatusCode::ShaderError, "a shader did not build: " + programs.error()}; }
+};
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+Effect::Effect(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Effect::~Effect() = default;
+
+CreateResult Effect::create(const Config& config) {
+  if (!config.loader)
+    return {nullptr,
+            {StatusCode::InvalidConfig, "Config::loader is null: a function that resolves GL names is needed"}};
+  auto state = std::make_unique<State>(config);
+  gl::Functions& gl = state->gl;
+  const std::string missing = gl.load(config.loader);
+  if (!gl.GetString || !gl.GetString(gl::VERSION))
+    return {nullptr, {StatusCode::NoContext, "no GL context is current on this thread"}};
+  const std::string version = reinterpret_cast<const char*>(gl.GetString(gl::VERSION));
+  gl::Int major = 0, minor = 0;
+  if (gl.GetIntegerv) {
+    gl.GetIntegerv(gl::MAJOR_VERSION, &major); // an error, and 0, before OpenGL 3.0
+    gl.GetIntegerv(gl::MINOR_VERSION, &minor);
+  }
+  gl.version = 10 * major + minor;
+  if (gl.version < 33 || version.rfind("OpenGL ES", 0) == 0)
+    return {nullptr,
+            {StatusCode::ContextTooOld, "the context is \"" + version + "\": OpenGL 3.3 core or later is needed"}};
+  if (!missing.empty())
+    return {nullptr,
+            {StatusCode::ContextTooOld, "the context is \"" + version + "\" but the loader knows no " + missing}};
+  state->createObjects();
+  return {std::unique_ptr<Effect>(new Effect(std::move(state))), {}};
+}
+
+Status Effect::render(const Frame& frame) {
+  State& state = *state_;
+  if (Status s = state.checkContext(); !s) return s;
+  if (Status s = checkValues(frame); !s) return s;
+  const gl::StateGuard guard(state.gl);
+  FrameTextures textures;
+  if (Status s = checkTextures(state.gl, frame, textures); !s) return s;
+  state.recorder.beginFrame();
+  return state.renderChecked(frame, textures);
+}
+
+Statistics Effect::statistics() {
+  std::uint64_t bytes = state_->targets.bytes() + sizeof(blocks::FrameBlock) + sizeof(blocks::LightBlock);
+  return {state_->recorder.collect(), bytes, state_->programs.size()};
+}
+
+Status Effect::compileAll() {
+  if (Status s = state_->checkContext(); !s) return s;
+  const gl::StateGuard guard(state_->gl);
+  for (const passes::exact::Variant& variant : passes::exact::allVariants())
+    if (!state_->programs.use("passes/exact.frag", passes::exact::definitionsOf(variant))) return state_->shaderError();
+  if (!state_->programs.use("passes/composite.frag", {})) return state_->shaderError();
+  return {};
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+void Effect::State::createObjects() {
+  const gl::StateGuard guard(gl);
+  vertexArray = gl::VertexArray(gl);
+  gl.BindVertexArray(vertexArray.name()); // a name becomes an object when it is first bound
+  framebuffer = gl::Framebuffer(gl);
+  nearestSampler = gl::Sampler(gl);
+  for (const gl::Enum filter : {gl::TEXTURE_MIN_FILTER, gl::TEXTURE_MAG_FILTER})
+    gl.SamplerParameteri(nearestSampler.name(), filter, gl::NEAREST);
+  for (const gl::Enum wrap : {gl::TEXTURE_WRAP_S, gl::TEXTURE_WRAP_T})
+    gl.SamplerParameteri(nearestSampler.name(), wrap, gl::CLAMP_TO_EDGE);
+  gl.SamplerParameteri(nearestSampler.name(), gl::TEXTURE_COMPARE_MODE, gl::NONE);
+  for (gl::Buffer& buffer : uniformBuffers)
+    buffer = gl::Buffer(gl);
+}
+
+Status Effect::State::checkContext() const {
+  if (!gl.GetString(gl::VERSION)) return {StatusCode::NoContext, "no GL context is current on this thread"};
+  if (!gl.IsVertexArray(vertexArray.name()))
+    return {StatusCode::NoContext, "another GL context is current than the one the effect was created in"};
+  gl::Int feedback = 0;
+  if (gl.version >= 40) gl.GetIntegerv(gl::TRANSFORM_FEEDBACK_ACTIVE, &feedback);
+  if (feedback) return {StatusCode::InvalidFrame, "transform feedback is active: end it before Effect::render"};
+  return {};
+}
+
+Status Effect::State::renderChecked(const Frame& frame, const FrameTextures& textures) {
+  const bool changesColour = optics::extinctionOf(frame.medium) != glm::dvec3(0);
+  if (!changesColour) recorder.skip("composite", "the medium neither scatters nor absorbs");
+  if (!changesColour && frame.output.inscatter == 0 && frame.output.transmittance == 0) return {};
+
+  Destination destination;
+  if (Status s = chooseDestination(frame, changesColour, destination); !s) return s;
+  gl.BindVertexArray(vertexArray.name());
+  gl.Viewport(0, 0, frame.width, frame.height);
+  const auto lights = static_cast<float>(std::max<std::size_t>(frame.lights.size(), 1));
+  const blocks::FrameBlock block = optics::frameBlock(frame, {textures.depthSamples, textures.maxRadiance / lights});
+  upload(0, &block, sizeof block);
+  if (Status s = drawLights(frame, textures, destination); !s) return s;
+  if (!destination.composite) return {};
+
+  if (Status s = attach(frame, frame.colour, 0); !s) return s;
+  const bool ok = recorder.run("composite", [&] {
+    return passes::composite::run(passContext(), {destination.inscatter, destination.transmittance});
+  });
+  return ok ? Status{} : shaderError();
+}
+
+Status Effect::State::chooseDestination(const Frame& frame, bool changesColour, Destination& destination) {
+  const Output& output = frame.output;
+  if (output.inscatter == 0 && output.transmittance == 0) return {};
+  destination = {output.inscatter, output.transmittance, changesColour && frame.colour != 0};
+  if (!destination.composite) return {};
+  if (!destination.inscatter) destination.inscatter = targets.get(Target::Inscatter, frame.width, frame.height);
+  if (!destination.transmittance)
+    destination.transmittance = targets.get(Target::Transmittance, frame.width, frame.height);
+  if (destination.inscatter && destination.transmittance) return {};
+  return {StatusCode::OutOfMemory,
+          "GL could not allocate a texture of " + std::to_string(frame.width) + " x " + std::to_string(frame.height)};
+}
+
+Status Effect::State::attach(const Frame& frame, gl::Uint first, gl::Uint second) {
+  gl.BindFramebuffer(gl::DRAW_FRAMEBUFFER, framebuffer.name());
+  gl.FramebufferTexture2D(gl::DRAW_FRAMEBUFFER, gl::COLOR_ATTACHMENT0, gl::TEXTURE_2D, first, 0);
+  gl.FramebufferTexture2D(gl::DRAW_FRAMEBUFFER, gl::COLOR_ATTACHMENT0 + 1, gl::TEXTURE_2D, second, 0);
+  const std::array<gl::Enum, 2> buffers = {first ? gl::COLOR_ATTACHMENT0 : gl::NONE,
+                                           second ? gl::COLOR_ATTACHMENT0 + 1 : gl::NONE};
+  gl.DrawBuffers(second ? 2 : 1, buffers.data());
+  if (gl.CheckFramebufferStatus(gl::DRAW_FRAMEBUFFER) == gl::FRAMEBUFFER_COMPLETE) return {};
+  return {StatusCode::InvalidFrame, std::string("Frame::") + (first == frame.colour ? "colour" : "output") +
+                                        ": this context cannot render to the texture's format"};
+}
+
+Status Effect::State::drawLights(const Frame& frame, const FrameTextures& textures, const Destination& destination) {
+  using namespace passes;
+  const bool direct = destination.inscatter == 0 && destination.transmittance == 0;
+  if (Status s =
+          direct ? attach(frame, frame.colour, 0) : attach(frame, destination.inscatter, destination.transmittance);
+      !s)
+    return s;
+  exact::In in;
+  in.sceneDepth = frame.depth.texture;
+  in.variant.monochrome = optics::isMonochrome(frame.medium);
+  in.variant.multisampled = frame.depth.multisampled;
+  in.variant.composite = direct;
+  // The first draw also brings the transmittance; those after it add their light.
+  in.blend = direct ? Blend::DualSource : Blend::Replace;
+  bool first = true;
+  const auto draw = [&](const std::string& name) {
+    const bool ok = recorder.run(name, [&] { return exact::run(passContext(), in); });
+    in.blend = Blend::Add;
+    first = false;
+    return ok;
+  };
+  for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+    const Light& light = frame.lights[i];
+    const std::string name = "exact light " + std::to_string(i);
+    if (light.colour == Rgb{0, 0, 0}) {
+      recorder.skip(name, "the light is black");
+      continue;
+    }
+    if (optics::scatteringOf(frame.medium) == glm::dvec3(0)) {
+      recorder.skip(name, "the medium does not scatter");
+      continue;
+    }
+    if (!first && !direct && destination.inscatter == 0) continue; // only the transmittance is wanted, and it is done
+    const FrameTextures::Shadow& map = textures.shadows[i];
+    const blocks::LightBlock block = optics::lightBlock(light, frame.camera, map.width, map.height);
+    upload(1, &block, sizeof block);
+    in.light = &light;
+    in.variant.lightKind = static_cast<int>(light.kind);
+    in.variant.shadowViews = light.shadow.texture ? std::min<int>(static_cast<int>(light.shadow.views.size()), 2) : 0;
+    in.variant.shadowArray = light.shadow.texture && light.shadow.array;
+    in.variant.bilinear = light.shadow.texture && frame.settings.shadowFilter == ShadowFilter::Bilinear;
+    in.variant.glass = light.glass.colour != 0;
+    if (!draw(name)) return shaderError();
+  }
+  if (!first) return {};
+  exact::Variant& v = in.variant;
+  v.lightKind = 3;
+  v.shadowViews = 0;
+  v.shadowArray = v.bilinear = v.glass = false;
+  v.monochrome = true;
+  return draw("transmittance") ? Status{} : shaderError();
+}
+
+void Effect::State::upload(int binding, const void* data, std::size_t size) {
+  const gl::Uint name = uniformBuffers[static_cast<std::size_t>(binding)].name();
+  gl.BindBuffer(gl::UNIFORM_BUFFER, name);
+  gl.BufferData(gl::UNIFORM_BUFFER, static_cast<gl::Sizeiptr>(size), data, gl::STREAM_DRAW);
+  gl.BindBufferBase(gl::UNIFORM_BUFFER, static_cast<gl::Uint>(binding), name);
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+Mat4 mat4(const float* columnMajor) {
+  Mat4 m{};
+  std::copy(columnMajor, columnMajor + 16, m.begin());
+  return m;
+}
+
+} // namespace tyndall

@@ -1,0 +1,50 @@
+#include "PassRecorder.h"
+
+namespace tyndall {
+
+void PassRecorder::beginFrame() { passes_.clear(); }
+
+void PassRecorder::skip(const std::string& pass, const std::string& why) {
+  passes_.push_back({{pass, why, 0}, {}, {}});
+}
+
+void PassRecorder::begin(const std::string& name) {
+  passes_.push_back({{name, {}, 0}, {}, {}});
+  if (gl_.version >= 43 && gl_.PushDebugGroup)
+    gl_.PushDebugGroup(gl::DEBUG_SOURCE_THIRD_PARTY, 0, -1, ("Tyndall: " + name).c_str());
+  if (timing_ == PassTiming::Finish) {
+    gl_.Finish();
+    start_ = std::chrono::steady_clock::now();
+  } else if (timing_ == PassTiming::TimerQuery) {
+    passes_.back().from = gl::Query(gl_);
+    passes_.back().to = gl::Query(gl_);
+    gl_.QueryCounter(passes_.back().from.name(), gl::TIMESTAMP);
+  }
+}
+
+void PassRecorder::end() {
+  if (timing_ == PassTiming::Finish) {
+    gl_.Finish();
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start_;
+    passes_.back().statistics.milliseconds = time.count();
+  } else if (timing_ == PassTiming::TimerQuery) {
+    gl_.QueryCounter(passes_.back().to.name(), gl::TIMESTAMP);
+  }
+  if (gl_.version >= 43 && gl_.PopDebugGroup) gl_.PopDebugGroup();
+}
+
+std::vector<PassStatistics> PassRecorder::collect() {
+  std::vector<PassStatistics> result;
+  for (Timed& pass : passes_) {
+    if (pass.from) {
+      gl::Uint64 from = 0, to = 0;
+      gl_.GetQueryObjectui64v(pass.from.name(), gl::QUERY_RESULT, &from);
+      gl_.GetQueryObjectui64v(pass.to.name(), gl::QUERY_RESULT, &to);
+      pass.statistics.milliseconds = static_cast<double>(to - from) * 1e-6;
+    }
+    result.push_back(pass.statistics);
+  }
+  return result;
+}
+
+} // namespace tyndall

@@ -1,1 +1,0 @@
-#include <tyndall/tyndall.h>

@@ -1,0 +1,128 @@
+// The effect's own table of GL functions, filled from the engine's loader: no global symbol, one table per effect. Only
+// GL names and types that the effect uses are declared here, so that no GL header is needed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#if defined(_WIN32)
+#define TYNDALL_GLAPI __stdcall
+#else
+#define TYNDALL_GLAPI
+#endif
+
+namespace tyndall::gl {
+
+using Enum = std::uint32_t;
+using Boolean = std::uint8_t;
+using Bitfield = std::uint32_t;
+using Int = std::int32_t;
+using Sizei = std::int32_t;
+using Uint = std::uint32_t;
+using Float = float;
+using Char = char;
+using Intptr = std::ptrdiff_t;
+using Sizeiptr = std::ptrdiff_t;
+using Int64 = std::int64_t;
+using Uint64 = std::uint64_t;
+
+// X(result, name, arguments, state): state names the row of StateGuard that gives back what the function changes, None
+// for functions that change nothing of the engine's (queries, draws into our targets, objects of our own).
+#define TYNDALL_GL_REQUIRED(X)                                                                                         \
+  X(const std::uint8_t*, GetString, (Enum name), None)                                                                 \
+  X(Enum, GetError, (), None)                                                                                          \
+  X(void, GetIntegerv, (Enum name, Int * value), None)                                                                 \
+  X(void, GetIntegeri_v, (Enum name, Uint index, Int * value), None)                                                   \
+  X(void, GetInteger64i_v, (Enum name, Uint index, Int64 * value), None)                                               \
+  X(void, GetBooleanv, (Enum name, Boolean * value), None)                                                             \
+  X(void, GetBooleani_v, (Enum name, Uint index, Boolean * value), None)                                               \
+  X(Boolean, IsEnabled, (Enum capability), None)                                                                       \
+  X(Boolean, IsEnabledi, (Enum capability, Uint index), None)                                                          \
+  X(Boolean, IsTexture, (Uint texture), None)                                                                          \
+  X(Boolean, IsVertexArray, (Uint array), None)                                                                        \
+  X(void, Enable, (Enum capability), Capabilities)                                                                     \
+  X(void, Disable, (Enum capability), Capabilities)                                                                    \
+  X(void, Enablei, (Enum capability, Uint index), Capabilities)                                                        \
+  X(void, Disablei, (Enum capability, Uint index), Capabilities)                                                       \
+  X(void, ActiveTexture, (Enum unit), Textures)                                                                        \
+  X(void, BindTexture, (Enum target, Uint texture), Textures)                                                          \
+  X(void, GenTextures, (Sizei n, Uint * names), None)                                                                  \
+  X(void, DeleteTextures, (Sizei n, const Uint* names), None)                                                          \
+  X(void, TexParameteri, (Enum target, Enum name, Int value), None)                                                    \
+  X(void, TexImage2D,                                                                                                  \
+    (Enum target, Int level, Int internal, Sizei width, Sizei height, Int border, Enum format, Enum type,              \
+     const void* pixels),                                                                                              \
+    PixelUnpackBuffer)                                                                                                 \
+  X(void, GetTexLevelParameteriv, (Enum target, Int level, Enum name, Int * value), None)                              \
+  X(void, GetTexParameteriv, (Enum target, Enum name, Int * value), None)                                              \
+  X(void, GenSamplers, (Sizei n, Uint * names), None)                                                                  \
+  X(void, DeleteSamplers, (Sizei n, const Uint* names), None)                                                          \
+  X(void, BindSampler, (Uint unit, Uint sampler), Textures)                                                            \
+  X(void, SamplerParameteri, (Uint sampler, Enum name, Int value), None)                                               \
+  X(void, GenBuffers, (Sizei n, Uint * names), None)                                                                   \
+  X(void, DeleteBuffers, (Sizei n, const Uint* names), None)                                                           \
+  X(void, BindBuffer, (Enum target, Uint buffer), UniformBuffers)                                                      \
+  X(void, BindBufferBase, (Enum target, Uint index, Uint buffer), UniformBuffers)                                      \
+  X(void, BindBufferRange, (Enum target, Uint index, Uint buffer, Intptr offset, Sizeiptr size), UniformBuffers)       \
+  X(void, BufferData, (Enum target, Sizeiptr size, const void* data, Enum usage), None)                                \
+  X(void, GenVertexArrays, (Sizei n, Uint * names), None)                                                              \
+  X(void, DeleteVertexArrays, (Sizei n, const Uint* names), None)                                                      \
+  X(void, BindVertexArray, (Uint array), VertexArray)                                                                  \
+  X(void, GenFramebuffers, (Sizei n, Uint * names), None)                                                              \
+  X(void, DeleteFramebuffers, (Sizei n, const Uint* names), None)                                                      \
+  X(void, BindFramebuffer, (Enum target, Uint framebuffer), Framebuffers)                                              \
+  X(void, FramebufferTexture2D, (Enum target, Enum attachment, Enum kind, Uint texture, Int level), None)              \
+  X(Enum, CheckFramebufferStatus, (Enum target), None)                                                                 \
+  X(void, DrawBuffers, (Sizei n, const Enum* buffers), None)                                                           \
+  X(Uint, CreateShader, (Enum kind), None)                                                                             \
+  X(void, DeleteShader, (Uint shader), None)                                                                           \
+  X(void, ShaderSource, (Uint shader, Sizei n, const Char* const* text, const Int* lengths), None)                     \
+  X(void, CompileShader, (Uint shader), None)                                                                          \
+  X(void, GetShaderiv, (Uint shader, Enum name, Int * value), None)                                                    \
+  X(void, GetShaderInfoLog, (Uint shader, Sizei size, Sizei * length, Char * log), None)                               \
+  X(Uint, CreateProgram, (), None)                                                                                     \
+  X(void, DeleteProgram, (Uint program), None)                                                                         \
+  X(void, AttachShader, (Uint program, Uint shader), None)                                                             \
+  X(void, DetachShader, (Uint program, Uint shader), None)                                                             \
+  X(void, LinkProgram, (Uint program), None)                                                                           \
+  X(void, GetProgramiv, (Uint program, Enum name, Int * value), None)                                                  \
+  X(void, GetProgramInfoLog, (Uint program, Sizei size, Sizei * length, Char * log), None)                             \
+  X(void, UseProgram, (Uint program), Program)                                                                         \
+  X(Int, GetUniformLocation, (Uint program, const Char* name), None)                                                   \
+  X(void, Uniform1i, (Int location, Int value), None)                                                                  \
+  X(Uint, GetUniformBlockIndex, (Uint program, const Char* name), None)                                                \
+  X(void, UniformBlockBinding, (Uint program, Uint index, Uint binding), None)                                         \
+  X(void, DrawArrays, (Enum mode, Int first, Sizei count), None)                                                       \
+  X(void, Viewport, (Int x, Int y, Sizei width, Sizei height), Viewports)                                              \
+  X(void, BlendFuncSeparate, (Enum srcRgb, Enum dstRgb, Enum srcAlpha, Enum dstAlpha), Blending)                       \
+  X(void, BlendEquationSeparate, (Enum rgb, Enum alpha), Blending)                                                     \
+  X(void, ColorMaski, (Uint index, Boolean r, Boolean g, Boolean b, Boolean a), ColourMasks)                           \
+  X(void, PolygonMode, (Enum face, Enum mode), PolygonMode)                                                            \
+  X(void, Finish, (), None)                                                                                            \
+  X(void, GenQueries, (Sizei n, Uint * names), None)                                                                   \
+  X(void, DeleteQueries, (Sizei n, const Uint* names), None)                                                           \
+  X(void, QueryCounter, (Uint query, Enum target), None)                                                               \
+  X(void, GetQueryObjectui64v, (Uint query, Enum name, Uint64 * value), None)
+
+// Functions of later versions that state of later versions needs; null where the context lacks them.
+#define TYNDALL_GL_OPTIONAL(X)                                                                                         \
+  X(void, GetFloati_v, (Enum name, Uint index, Float * value), None)                                                   \
+  X(void, ViewportIndexedf, (Uint index, Float x, Float y, Float width, Float height), Viewports)                      \
+  X(void, BlendFuncSeparatei, (Uint index, Enum srcRgb, Enum dstRgb, Enum srcAlpha, Enum dstAlpha), Blending)          \
+  X(void, BlendEquationSeparatei, (Uint index, Enum rgb, Enum alpha), Blending)                                        \
+  X(void, PushDebugGroup, (Enum source, Uint id, Sizei length, const Char* message), None)                             \
+  X(void, PopDebugGroup, (), None)
+
+struct Functions {
+#define TYNDALL_GL_DECLARE(result, name, arguments, state) result(TYNDALL_GLAPI* name) arguments = nullptr;
+  TYNDALL_GL_REQUIRED(TYNDALL_GL_DECLARE)
+  TYNDALL_GL_OPTIONAL(TYNDALL_GL_DECLARE)
+#undef TYNDALL_GL_DECLARE
+  int version = 0; ///< 10 * major + minor of the context
+
+  /// Fills the table. Returns the name of the first required function that the loader does not know, empty if all are.
+  std::string load(void* (*loader)(const char*));
+};
+
+} // namespace tyndall::gl

@@ -1,0 +1,102 @@
+#include "gl/Program.h"
+
+#include "gl/Enums.h"
+#include "gl/ShaderSources.h"
+
+#include <array>
+#include <sstream>
+
+namespace tyndall::gl {
+
+namespace {
+
+constexpr std::array<const char*, 6> kSamplers = {"sceneDepth", "shadowMap", "glassColour",
+                                                  "glassDepth", "inscatter", "transmittance"};
+constexpr std::array<const char*, 2> kBlocks = {"FrameBlock", "LightBlock"};
+
+std::string prologue(const Definitions& definitions) {
+  std::string text = "#version 330 core\n#define UNIFORM_BLOCK(name) layout(std140) uniform name\n";
+  for (const auto& [name, value] : definitions)
+    text += "#define " + name + " " + std::to_string(value) + "\n";
+  return text;
+}
+
+std::string numbered(const std::string& text) {
+  std::istringstream lines(text);
+  std::string result, line;
+  for (int number = 1; std::getline(lines, line); ++number)
+    result += std::to_string(number) + ": " + line + "\n";
+  return result;
+}
+
+} // namespace
+
+Uint ProgramCache::use(const std::string& fragment, const Definitions& definitions) {
+  std::string key = fragment;
+  for (const auto& [name, value] : definitions)
+    key += " " + name + "=" + std::to_string(value);
+  auto found = programs_.find(key);
+  if (found == programs_.end()) {
+    const Uint name = link(fragment, definitions);
+    if (name == 0) {
+      error_ = key + "\n" + error_;
+      return 0;
+    }
+    found = programs_.emplace(key, Program(gl_, name)).first;
+  }
+  gl_.UseProgram(found->second.name());
+  return found->second.name();
+}
+
+Uint ProgramCache::compile(Enum kind, const std::string& file, const Definitions& definitions) {
+  const std::string text = prologue(definitions) + shaderSource(file.c_str());
+  const Char* pointer = text.c_str();
+  const Uint shader = gl_.CreateShader(kind);
+  gl_.ShaderSource(shader, 1, &pointer, nullptr);
+  gl_.CompileShader(shader);
+  Int ok = 0, length = 0;
+  gl_.GetShaderiv(shader, COMPILE_STATUS, &ok);
+  if (ok) return shader;
+  gl_.GetShaderiv(shader, INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<std::size_t>(length > 0 ? length : 1), '\0');
+  gl_.GetShaderInfoLog(shader, length, nullptr, log.data());
+  error_ = log + "\n" + numbered(text);
+  gl_.DeleteShader(shader);
+  return 0;
+}
+
+Uint ProgramCache::link(const std::string& fragment, const Definitions& definitions) {
+  const Uint vertex = compile(VERTEX_SHADER, "passes/fullscreen.vert", {});
+  const Uint pixel = vertex ? compile(FRAGMENT_SHADER, fragment, definitions) : 0;
+  if (pixel == 0) {
+    if (vertex) gl_.DeleteShader(vertex);
+    return 0;
+  }
+  const Uint program = gl_.CreateProgram();
+  for (const Uint shader : {vertex, pixel})
+    gl_.AttachShader(program, shader);
+  gl_.LinkProgram(program);
+  for (const Uint shader : {vertex, pixel}) {
+    gl_.DetachShader(program, shader);
+    gl_.DeleteShader(shader);
+  }
+  Int ok = 0, length = 0;
+  gl_.GetProgramiv(program, LINK_STATUS, &ok);
+  if (!ok) {
+    gl_.GetProgramiv(program, INFO_LOG_LENGTH, &length);
+    error_.assign(static_cast<std::size_t>(length > 0 ? length : 1), '\0');
+    gl_.GetProgramInfoLog(program, length, nullptr, error_.data());
+    gl_.DeleteProgram(program);
+    return 0;
+  }
+  gl_.UseProgram(program);
+  for (std::size_t i = 0; i < kSamplers.size(); ++i)
+    if (const Int location = gl_.GetUniformLocation(program, kSamplers[i]); location >= 0)
+      gl_.Uniform1i(location, static_cast<Int>(i));
+  for (std::size_t i = 0; i < kBlocks.size(); ++i)
+    if (const Uint index = gl_.GetUniformBlockIndex(program, kBlocks[i]); index != INVALID_INDEX)
+      gl_.UniformBlockBinding(program, index, static_cast<Uint>(i));
+  return program;
+}
+
+} // namespace tyndall::gl

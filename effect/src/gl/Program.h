@@ -1,0 +1,56 @@
+// A linked program: the full-screen vertex shader with one fragment shader of glsl/passes and a set of definitions.
+#pragma once
+
+#include "gl/Functions.h"
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tyndall::gl {
+
+using Definitions = std::vector<std::pair<std::string, int>>; ///< name and value of each #define
+
+/// Texture unit of each sampler that a shader of ours may declare.
+enum class Unit : Uint { SceneDepth, ShadowMap, GlassColour, GlassDepth, Inscatter, Transmittance };
+
+class Program {
+public:
+  Program(const Functions& gl, Uint name) : gl_(&gl), name_(name) {}
+  Program(Program&& other) noexcept : gl_(other.gl_), name_(std::exchange(other.name_, 0)) {}
+  Program& operator=(Program&&) = delete;
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+  ~Program() {
+    if (name_ != 0) gl_->DeleteProgram(name_);
+  }
+  Uint name() const { return name_; }
+
+private:
+  const Functions* gl_;
+  Uint name_;
+};
+
+/// Compiles variants when they are first asked for and keeps them.
+class ProgramCache {
+public:
+  explicit ProgramCache(const Functions& gl) : gl_(gl) {}
+
+  /// The program of a fragment shader ("passes/exact.frag"); 0 if it does not build, then error() has the log. Leaves
+  /// the program in use.
+  Uint use(const std::string& fragment, const Definitions& definitions);
+
+  const std::string& error() const { return error_; }
+  int size() const { return static_cast<int>(programs_.size()); }
+
+private:
+  Uint compile(Enum kind, const std::string& file, const Definitions& definitions);
+  Uint link(const std::string& fragment, const Definitions& definitions);
+
+  const Functions& gl_;
+  std::map<std::string, Program> programs_;
+  std::string error_;
+};
+
+} // namespace tyndall::gl

@@ -1,0 +1,172 @@
+#include "optics/Blocks.h"
+
+#include "optics/Matrices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace tyndall::optics {
+
+namespace {
+
+constexpr double kEndless = 1e30;      // a ray without end; float32 holds it, and exp(-sigma_t 1e30) is 0 or 1
+constexpr double kInvisibleDepth = 40; // optical depth behind which light counts for less than 5e-18
+constexpr double kLongestMarch = 1e15; // its square is a float32
+
+bool isEqualInAll(const Rgb& c) { return c[0] == c[1] && c[1] == c[2]; }
+
+glm::vec4 phaseNormAndShape(const Constituent& c, double& norm) {
+  constexpr double kPi = glm::pi<double>();
+  const double g = c.g, a = (1 - std::abs(g)) * (1 - std::abs(g)), b = 2 * std::abs(g), side = g < 0 ? -1 : 1;
+  switch (c.phase) {
+  case Phase::Isotropic:
+    norm = 1 / (4 * kPi);
+    return {1, 0, 0, 1};
+  case Phase::Rayleigh:
+    norm = 3 / (16 * kPi);
+    return {1, 0, 1, 1};
+  case Phase::HenyeyGreenstein:
+    norm = (1 - g * g) / (4 * kPi);
+    return {a, b, 0, side};
+  case Phase::CornetteShanks:
+    norm = 3 * (1 - g * g) / (8 * kPi * (2 + g * g));
+    return {a, b, 1, side};
+  }
+  norm = 0;
+  return {1, 0, 0, 1};
+}
+
+// Distance behind which no channel that scatters shows anything.
+double visibleDistance(const Medium& medium) {
+  const glm::dvec3 extinction = extinctionOf(medium), scattering = scatteringOf(medium);
+  double distance = 0;
+  for (int c = 0; c < 3; ++c)
+    if (scattering[c] > 0) distance = std::max(distance, kInvisibleDepth / extinction[c]);
+  return std::min(distance, kLongestMarch);
+}
+
+void setCameraRays(blocks::FrameBlock& block, const Frame& frame) {
+  const Camera& camera = frame.camera;
+  const glm::dmat4 depthClipFromWorld =
+      depthFromClip(camera.clipDepth) * toGlm(camera.clipFromView) * toGlm(camera.viewFromWorld);
+  const glm::dmat4 depthClipFromCamera = glm::translate(depthClipFromWorld, cameraOrigin(camera));
+  const glm::dmat4 cameraFromDepthClip = glm::inverse(depthClipFromCamera);
+  const bool orthographic = isOrthographic(depthClipFromWorld);
+  // Depth is reversed if it falls with the distance to the eye (clip w), or along the view's -z if orthographic.
+  const glm::dvec4 row3 = glm::transpose(depthClipFromWorld)[3];
+  const glm::dvec3 forward =
+      orthographic ? -glm::dvec3(glm::transpose(toGlm(camera.viewFromWorld))[2]) : glm::dvec3(row3);
+  const bool reversed = isReversed(depthClipFromWorld, forward);
+  const double far = reversed ? 0 : 1, near = 1 - far;
+  glm::dvec4 corner = cameraFromDepthClip * glm::dvec4(0, 0, far, 1);
+  glm::dvec4 stepX = cameraFromDepthClip[0] * (2.0 / frame.width);
+  glm::dvec4 stepY = cameraFromDepthClip[1] * (2.0 / frame.height);
+  glm::dvec4 step = cameraFromDepthClip[2] * (near - far);
+  // Any common factor cancels; this one makes float32's range irrelevant. The clip w of what is seen must be positive.
+  double scale = glm::length(glm::dvec3(corner));
+  if (orthographic)
+    scale = corner.w;
+  else if (corner.w + step.w < 0)
+    scale = -scale;
+  block.farPoint[0] = corner / scale;
+  block.farPoint[1] = stepX / scale;
+  block.farPoint[2] = stepY / scale;
+  block.nearStep = step / scale;
+  if (!orthographic) block.nearStep = glm::vec4(0, 0, 0, step.w / scale); // xyz is 0 but for rounding
+  const double sky = std::min(frame.medium.farDistance, kEndless);
+  block.depthToT = glm::vec4(reversed ? 0 : 1, reversed ? 1 : -1, orthographic ? 1 : 0, sky);
+}
+
+} // namespace
+
+glm::dvec3 cameraOrigin(const Camera& camera) {
+  return eyeOf(depthFromClip(camera.clipDepth) * toGlm(camera.clipFromView) * toGlm(camera.viewFromWorld));
+}
+
+glm::dvec3 scatteringOf(const Medium& medium) {
+  glm::dvec3 sum(0);
+  for (const Constituent& c : medium.constituents)
+    sum += glm::dvec3(toGlm(c.scattering));
+  return sum;
+}
+
+glm::dvec3 extinctionOf(const Medium& medium) { return scatteringOf(medium) + glm::dvec3(toGlm(medium.absorption)); }
+
+bool isMonochrome(const Medium& medium) {
+  return isEqualInAll(medium.absorption) &&
+         std::all_of(medium.constituents.begin(), medium.constituents.end(),
+                     [](const Constituent& c) { return isEqualInAll(c.scattering); });
+}
+
+blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
+  blocks::FrameBlock block{};
+  setCameraRays(block, frame);
+  block.extinction =
+      glm::vec4(glm::vec3(extinctionOf(frame.medium)), static_cast<float>(visibleDistance(frame.medium)));
+  int count = 0;
+  for (const Constituent& c : frame.medium.constituents) {
+    double norm = 0;
+    block.phaseShape[count] = phaseNormAndShape(c, norm);
+    block.scattering[count++] = glm::vec4(glm::vec3(glm::dvec3(toGlm(c.scattering)) * norm), 0);
+  }
+  block.limits = glm::vec4(sizes.maxRadiance, 0, 0, 0);
+  block.counts = glm::ivec4(count, sizes.depthSamples, frame.width, frame.height);
+  return block;
+}
+
+namespace {
+
+glm::vec4 coneOf(const Light& light) {
+  // Below this difference of cosines the falloff is narrower than float32 tells from a step.
+  constexpr double kHardEdge = 1e-4;
+  const double outer = std::cos(light.outerConeAngle), inner = std::cos(light.innerConeAngle);
+  const bool hard = inner - outer < kHardEdge;
+  return glm::vec4(std::max(outer, 0.0), inner, hard ? 0 : 1 / (inner - outer), 0);
+}
+
+// The light's way through the medium, as a linear function of the camera-relative point.
+glm::vec4 boundaryOf(const MediumBoundary& boundary, const glm::dvec3& direction, const glm::dvec3& origin) {
+  if (!boundary.enabled) return glm::vec4(0);
+  const glm::dvec3 normal = glm::normalize(toGlm(boundary.normal));
+  const glm::dvec3 gradient = normal / glm::dot(normal, direction);
+  return glm::vec4(gradient, glm::dot(gradient, origin - toGlm(boundary.point)));
+}
+
+} // namespace
+
+blocks::LightBlock lightBlock(const Light& light, const Camera& camera, int shadowWidth, int shadowHeight) {
+  const glm::dvec3 origin = cameraOrigin(camera);
+  const glm::dvec3 direction =
+      light.kind == LightKind::Point ? glm::dvec3(0, -1, 0) : glm::normalize(toGlm(light.direction));
+  blocks::LightBlock block{};
+  block.lightColour = glm::vec4(toGlm(light.colour), 0);
+  block.lightDirection = glm::vec4(direction, 0);
+  block.lightPosition = glm::vec4(toGlm(light.position) - origin, std::isfinite(light.range) ? light.range : 0);
+  block.cone = coneOf(light);
+  block.boundary = boundaryOf(light.boundary, direction, origin);
+  const auto count = static_cast<int>(light.shadow.texture ? light.shadow.views.size() : 0);
+  block.viewCounts = glm::ivec4(count, light.litOutsideViews ? 1 : 0, shadowWidth, shadowHeight);
+  for (int i = 0; i < count; ++i) {
+    const ShadowView& view = light.shadow.views[static_cast<std::size_t>(i)];
+    const glm::dmat4 depthClipFromWorld = depthFromClip(light.shadow.clipDepth) * toGlm(view.clipFromWorld);
+    const glm::dmat4 worldFromClip = glm::inverse(depthClipFromWorld);
+    const glm::dvec4 centre = worldFromClip * glm::dvec4(0, 0, 0.5, 1);
+    const glm::dvec3 travel =
+        light.kind == LightKind::Directional ? direction : glm::dvec3(centre) / centre.w - toGlm(light.position);
+    const bool reversed = isReversed(depthClipFromWorld, travel);
+    // Clip x, y to texels and depth to a value that grows away from the light: 0..1, or -1..0 if reversed.
+    glm::dmat4 texelFromClip(1);
+    texelFromClip[0][0] = texelFromClip[3][0] = 0.5 * shadowWidth;
+    texelFromClip[1][1] = texelFromClip[3][1] = 0.5 * shadowHeight;
+    texelFromClip[2][2] = reversed ? -1 : 1;
+    block.texelFromCamera[i] = glm::mat4(texelFromClip * glm::translate(depthClipFromWorld, origin));
+    const bool open = light.kind != LightKind::Directional || i == count - 1;
+    block.viewDepth[i] = glm::vec4(reversed ? -1 : 0, reversed ? 0 : 1, reversed ? -1 : 1, open ? 1 : 0);
+    block.viewLayer[i] = glm::ivec4(view.layer, 0, 0, 0);
+  }
+  return block;
+}
+
+} // namespace tyndall::optics

@@ -1,0 +1,33 @@
+// Fills the uniform blocks of glsl/shared.glsl from a frame. All matrices are composed in double (DESIGN 1, rule 1).
+#pragma once
+
+#include "SharedBlocks.h"
+
+#include <tyndall/tyndall.h>
+
+namespace tyndall::optics {
+
+/// What the blocks need of a frame beyond the public structs.
+struct FrameSizes {
+  int depthSamples = 1;  ///< samples per pixel of the scene depth
+  float maxRadiance = 0; ///< largest finite value of the narrowest target format
+};
+
+/// The point that shader positions are relative to: the eye, or the clip volume's centre if orthographic.
+glm::dvec3 cameraOrigin(const Camera& camera);
+
+blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes);
+
+/// shadowWidth, shadowHeight: texels, 0 without a shadow map.
+blocks::LightBlock lightBlock(const Light& light, const Camera& camera, int shadowWidth, int shadowHeight);
+
+/// Extinction sigma_t = scattering of all constituents + absorption, 1/world unit.
+glm::dvec3 extinctionOf(const Medium& medium);
+
+/// Sum of all scattering coefficients, 1/world unit.
+glm::dvec3 scatteringOf(const Medium& medium);
+
+/// True if every coefficient has the same value in R, G and B.
+bool isMonochrome(const Medium& medium);
+
+} // namespace tyndall::optics

@@ -1,0 +1,30 @@
+#include "passes/PassContext.h"
+
+namespace tyndall::passes {
+
+void bindTexture(const PassContext& context, gl::Unit unit, gl::Enum target, gl::Uint texture) {
+  const auto index = static_cast<gl::Uint>(unit);
+  context.gl.ActiveTexture(gl::TEXTURE0 + index);
+  context.gl.BindTexture(target, texture);
+  // A multisampled texture takes no sampler.
+  context.gl.BindSampler(index, target == gl::TEXTURE_2D_MULTISAMPLE ? 0 : context.nearestSampler);
+}
+
+void setBlend(const PassContext& context, Blend blend) {
+  const gl::Functions& gl = context.gl;
+  if (blend == Blend::Replace) {
+    gl.Disable(gl::BLEND);
+    return;
+  }
+  gl.Enable(gl::BLEND);
+  gl.BlendEquationSeparate(gl::FUNC_ADD, gl::FUNC_ADD);
+  gl.BlendFuncSeparate(gl::ONE, blend == Blend::Add ? gl::ONE : gl::SRC1_COLOR, gl::ZERO, gl::ONE);
+}
+
+bool drawFullScreen(const PassContext& context, const std::string& fragment, const gl::Definitions& definitions) {
+  if (context.programs.use(fragment, definitions) == 0) return false;
+  context.gl.DrawArrays(gl::TRIANGLES, 0, 3);
+  return true;
+}
+
+} // namespace tyndall::passes

@@ -1,0 +1,219 @@
+// In-scattered light of a lit span of a camera ray (DESIGN 1). LIGHT_KIND: 0 directional, 1 point, 2 spot.
+//
+// Airlight holds what a ray needs once; airlight(…, s0, s1) integrates the span [s0, s1]; litRange() says where along the
+// ray the light reaches at all. The light's colour is left out: the caller multiplies by it.
+
+// (1 - exp(-x)) / x for x >= 0: a series where the difference would cancel.
+float relativeExpm1(float x) {
+  if (x < 0.5) {
+    return 1.0 + x * (-1.0 / 2.0 + x * (1.0 / 6.0 + x * (-1.0 / 24.0 + x * (1.0 / 120.0 + x * (-1.0 / 720.0 +
+                 x * (1.0 / 5040.0 + x * (-1.0 / 40320.0)))))));
+  }
+  return (1.0 - exp(-x)) / x;
+}
+vec3 relativeExpm1(vec3 x) { return vec3(relativeExpm1(x.x), relativeExpm1(x.y), relativeExpm1(x.z)); }
+
+#if LIGHT_KIND == 0
+
+struct Airlight {
+  Spectrum phase; // sum of sigma_k p_k, constant along the ray
+  float path;     // the light's way through the medium to the point s is max(0, path + s pathSlope)
+  float pathSlope;
+};
+
+Airlight airlightOf(Ray ray) {
+  // theta lies between the light's travel and the direction to the eye: cos = -dot(l, v). |l + v|^2 / 2 = 1 - cos.
+  vec3 l = lightDirection.xyz;
+  vec3 sum = l + ray.direction, difference = l - ray.direction;
+  return Airlight(scatteringTowardsEye(0.5 * dot(sum, sum), 0.5 * dot(difference, difference)),
+                  dot(boundary.xyz, ray.origin) + boundary.w, dot(boundary.xyz, ray.direction));
+}
+
+void litRange(Airlight light, inout float s0, inout float s1) {}
+
+// integral of exp(-sigma (e0 + (s - s0) slope)) over a span of the given length: from its dimmer exponent, so that the
+// exponential never grows.
+Spectrum exponentialSpan(float e0, float slope, float len) {
+  Spectrum sigma = SPECTRUM(extinction);
+  float start = slope < 0.0 ? e0 + slope * len : e0;
+  return exp(-sigma * start) * relativeExpm1(sigma * (abs(slope) * len)) * len;
+}
+
+// Closed form (Yusov 2013, "Directional light"), with the light's own path where the medium has a boundary.
+Spectrum airlight(Airlight light, float s0, float s1) {
+  float len = s1 - s0;
+  if (!(len > 0.0)) return Spectrum(0.0);
+  if (light.path == 0.0 && light.pathSlope == 0.0) return light.phase * exponentialSpan(s0, 1.0, len);
+  float p0 = light.path + s0 * light.pathSlope, p1 = light.path + s1 * light.pathSlope;
+  if (p0 >= 0.0 && p1 >= 0.0) return light.phase * exponentialSpan(s0 + p0, 1.0 + light.pathSlope, len);
+  if (p0 <= 0.0 && p1 <= 0.0) return light.phase * exponentialSpan(s0, 1.0, len);
+  // The ray crosses the boundary inside the span.
+  float crossing = clamp(-light.path / light.pathSlope, s0, s1);
+  if (p0 < 0.0) {
+    return light.phase * (exponentialSpan(s0, 1.0, crossing - s0) +
+                          exponentialSpan(crossing, 1.0 + light.pathSlope, s1 - crossing));
+  }
+  return light.phase * (exponentialSpan(s0 + p0, 1.0 + light.pathSlope, crossing - s0) +
+                        exponentialSpan(crossing, 1.0, s1 - crossing));
+}
+
+#else
+
+struct Airlight {
+  float foot;    // s of the point of the ray that is closest to the light
+  float height2; // squared distance of the ray to the light
+#if LIGHT_KIND == 2
+  float axisFoot, axisSlope; // dot(axis, point - light) = axisFoot + (s - foot) axisSlope
+  vec2 lit, inner;           // intervals of s inside the outer and inside the inner cone
+#endif
+};
+
+#if LIGHT_KIND == 2
+// The interval of t = s - foot in which the ray is inside the cone of the given cosine (>= 0): where
+// b + t v >= c sqrt(t^2 + h^2). Squared, (v^2 - c^2) t^2 + 2 b v t + b^2 - c^2 h^2 >= 0 with b + t v >= 0; the convex
+// cone meets the line in one interval, so that the roots on the forward side bound it.
+vec2 coneInterval(float b, float v, float height2, float c) {
+  const vec2 kNone = vec2(1.0, -1.0);
+  const float kFar = 1e30;
+  if (c < 1e-4) { // a half-space: both nappes touch and the squared form has a double root
+    if (v == 0.0) return b > 0.0 ? vec2(-kFar, kFar) : kNone;
+    return v > 0.0 ? vec2(-b / v, kFar) : vec2(-kFar, -b / v);
+  }
+  float A = v * v - c * c, B = b * v, C = b * b - c * c * height2;
+  float discriminant = c * c * (b * b + height2 * A);
+  if (!(discriminant > 0.0)) return kNone;
+  // The stable pair of roots: q = -(B + sign(B) sqrt(D)), roots q / A and C / q.
+  float q = -(B + (B < 0.0 ? -1.0 : 1.0) * sqrt(discriminant));
+  float r0 = abs(A) > abs(q) * 1e-30 ? q / A : kFar * sign(q) * (A < 0.0 ? -1.0 : 1.0);
+  float r1 = q != 0.0 ? C / q : 0.0;
+  float low = min(r0, r1), high = max(r0, r1);
+  // A >= 0: the ray's direction lies inside the double cone, each nappe is crossed once. Else both roots share a nappe.
+  if (A >= 0.0) return v > 0.0 ? vec2(high, kFar) : vec2(-kFar, low);
+  return b + 0.5 * (low + high) * v > 0.0 ? vec2(low, high) : kNone;
+}
+#endif
+
+Airlight airlightOf(Ray ray) {
+  vec3 toLight = lightPosition.xyz - ray.origin;
+  Airlight light;
+  light.foot = dot(toLight, ray.direction);
+  vec3 normal = cross(toLight, ray.direction);
+  // The floor guards 1/h for a ray through the light: float32 does not resolve h below 1e-7 of the light's distance.
+  light.height2 = max(dot(normal, normal), max(1e-13 * dot(toLight, toLight), 1e-36));
+#if LIGHT_KIND == 2
+  vec3 footFromLight = ray.direction * light.foot - toLight;
+  light.axisFoot = dot(lightDirection.xyz, footFromLight);
+  light.axisSlope = dot(lightDirection.xyz, ray.direction);
+  light.lit = light.foot + coneInterval(light.axisFoot, light.axisSlope, light.height2, cone.x);
+  light.inner = light.foot + coneInterval(light.axisFoot, light.axisSlope, light.height2, cone.y);
+#endif
+  return light;
+}
+
+void litRange(Airlight light, inout float s0, inout float s1) {
+  float range = lightPosition.w;
+  if (range > 0.0) {
+    float halfChord = sqrt(max(0.0, range * range - light.height2));
+    if (halfChord == 0.0) s1 = s0;
+    s0 = max(s0, light.foot - halfChord);
+    s1 = min(s1, light.foot + halfChord);
+  }
+#if LIGHT_KIND == 2
+  s0 = max(s0, light.lit.x);
+  s1 = min(s1, light.lit.y);
+#endif
+}
+
+// The quadrature variable is x with t = s - foot = h sinh x, r = h cosh x (equi-angular sampling is tan phi = sinh x).
+// ds / r^2 = dx / r, and the integrand exp(-sigma (s + r)) p / r is analytic for |Im x| < pi/2 whatever sigma, g and h
+// are, so that panels of bounded length converge alike everywhere. P = r + t and N = r - t (P N = h^2) scale as
+// exp(+-x): a step along x multiplies P and divides N, h itself is not needed, and 1 - cos(theta) = P / r exactly.
+
+// Length of [t0, t1] in x: asinh of sinh(x1 - x0), in the form that does not cancel.
+float panelLength(float t0, float r0, float t1, float r1, float height2) {
+  float y = t0 * t1 > 0.0 ? (t1 - t0) * ((t1 + t0) / (t1 * r0 + r1 * t0)) : (t1 * r0 - r1 * t0) / height2;
+  y = min(y, 1e30);
+  if (y < 0.3) {
+    float y2 = y * y;
+    return y * (1.0 + y2 * (-1.0 / 6.0 + y2 * (3.0 / 40.0 + y2 * (-15.0 / 336.0 + y2 * (105.0 / 3456.0)))));
+  }
+  return y > 1e6 ? log(2.0 * y) : log(y + sqrt(1.0 + y * y));
+}
+
+// The integrand at r + t = P, r - t = N; start is s + r at the span's begin and P0 its P.
+Spectrum pointIntegrand(Airlight light, float P, float N, float start, float P0) {
+  float r = 0.5 * (P + N);
+  Spectrum value = scatteringTowardsEye(P / r, N / r) * exp(-SPECTRUM(extinction) * (start + (P - P0))) / r;
+#if LIGHT_KIND == 2
+  float cosAxis = (light.axisFoot + 0.5 * (P - N) * light.axisSlope) / r;
+  float falloff = cone.z > 0.0 ? clamp((cosAxis - cone.x) * cone.z, 0.0, 1.0) : 1.0;
+  value *= falloff * falloff;
+#endif
+  return value;
+}
+
+const float kNode6[3] = float[3](0.2386191860831969, 0.6612093864662645, 0.9324695142031521);
+const float kWeight6[3] = float[3](0.4679139345726910, 0.3607615730481386, 0.1713244923791704);
+const float kNode2 = 0.5773502691896257;
+
+// One smooth piece of a span: panels in x, at most 2 long and at most 6 optical depths deep, Gauss-Legendre in each.
+Spectrum pointPiece(Airlight light, float s0, float s1) {
+  const int kMaxPanels = 32;
+  const float kDark = 20.0; // optical depths beyond the start after which nothing counts
+  if (!(s1 > s0)) return Spectrum(0.0);
+  float t0 = s0 - light.foot, t1 = s1 - light.foot;
+  float r0 = sqrt(t0 * t0 + light.height2), r1 = sqrt(t1 * t1 + light.height2);
+  float P0 = t0 > 0.0 ? r0 + t0 : light.height2 / (r0 - t0);
+  float N0 = t0 > 0.0 ? light.height2 / (r0 + t0) : r0 - t0;
+  float remaining = panelLength(t0, r0, t1, r1, light.height2);
+  float start = s0 + r0;
+  vec3 sigma = extinction.rgb;
+  Spectrum sum = Spectrum(0.0);
+  float P = P0, N = N0;
+  for (int i = 0; i < kMaxPanels && remaining > 0.0; ++i) {
+    // The fastest channel that is not dark yet bounds the panel.
+    vec3 passed = sigma * (P - P0);
+    bvec3 dark = greaterThan(passed, vec3(kDark));
+    if (all(dark)) break;
+    vec3 alive = mix(sigma, vec3(0.0), dark);
+    float rate = max(alive.r, max(alive.g, alive.b)) * P;
+    float len = i == kMaxPanels - 1 ? remaining : min(remaining, min(2.0, rate > 0.0 ? log(1.0 + 6.0 / rate) : 2.0));
+    float halfLength = 0.5 * len;
+    float middle = exp(halfLength);
+    float Pm = P * middle, Nm = N / middle;
+    if (len < 0.2 && rate * len < 0.3) {
+      float step = exp(halfLength * kNode2);
+      sum += halfLength * (pointIntegrand(light, Pm / step, Nm * step, start, P0) +
+                           pointIntegrand(light, Pm * step, Nm / step, start, P0));
+    } else {
+      for (int k = 0; k < 3; ++k) {
+        float step = exp(halfLength * kNode6[k]);
+        sum += (halfLength * kWeight6[k]) * (pointIntegrand(light, Pm / step, Nm * step, start, P0) +
+                                             pointIntegrand(light, Pm * step, Nm / step, start, P0));
+      }
+    }
+    P = Pm * middle;
+    N = Nm / middle;
+    remaining -= len;
+  }
+  return sum;
+}
+
+Spectrum airlight(Airlight light, float s0, float s1) {
+#if LIGHT_KIND == 2
+  // The falloff has a kink where the ray crosses the inner cone.
+  if (light.inner.x < light.inner.y && s0 < light.inner.y && s1 > light.inner.x) {
+    Spectrum sum = Spectrum(0.0);
+    float from = s0;
+    for (int i = 0; i < 3; ++i) {
+      float to = i == 2 ? s1 : clamp(i == 0 ? light.inner.x : light.inner.y, from, s1);
+      sum += pointPiece(light, from, to);
+      from = to;
+    }
+    return sum;
+  }
+#endif
+  return pointPiece(light, s0, s1);
+}
+
+#endif

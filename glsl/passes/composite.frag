@@ -1,0 +1,13 @@
+// Composite: blends finished inscatter and transmittance (both image size, RGB) into the back buffer,
+// out = back * transmittance + inscatter, by dual-source blending.
+uniform sampler2D inscatter;
+uniform sampler2D transmittance;
+
+layout(location = 0, index = 0) out vec4 outInscatter;
+layout(location = 0, index = 1) out vec4 outTransmittance;
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  outInscatter = vec4(texelFetch(inscatter, pixel, 0).rgb, 0.0);
+  outTransmittance = vec4(texelFetch(transmittance, pixel, 0).rgb, 1.0);
+}

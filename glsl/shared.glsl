@@ -1,0 +1,34 @@
+// Uniform blocks and limits, read by the shader compiler and by the C++ compiler (effect/src/SharedBlocks.h), so that
+// both see one layout. Every member is a vec4, ivec4 or mat4 (or an array of them): std140 and C++ then agree.
+//
+// Positions are relative to the eye (perspective) or to the centre of the clip volume (orthographic), in world units and
+// world orientation: no shader adds a world position.
+
+#define MAX_CONSTITUENTS 4
+#define MAX_SHADOW_VIEWS 6
+#define MAX_DEPTH_SAMPLES 16
+
+UNIFORM_BLOCK(FrameBlock) {
+  // The homogeneous point at window position p and t (0 at the far depth, 1 at the near depth) is
+  // farPoint[0] + p.x farPoint[1] + p.y farPoint[2] + t nearStep, p in pixels from the image's centre.
+  vec4 farPoint[3];
+  vec4 nearStep;
+  vec4 depthToT;                      // x + y * depth = t; z: 1 if orthographic; w: ray length for the sky
+  vec4 extinction;                    // sigma_t, rgb; w: ray length beyond which nothing visible is added
+  vec4 scattering[MAX_CONSTITUENTS];  // sigma_k times the norm of p_k, rgb
+  vec4 phaseShape[MAX_CONSTITUENTS];  // a, b, c, side: p_k ~ (1 + c cos^2) (a + b (1 -+ cos))^(-3/2), - for side > 0
+  vec4 limits;                        // x: largest radiance that the target's format holds
+  ivec4 counts;                       // constituents, samples of the depth texture, image width, image height
+};
+
+UNIFORM_BLOCK(LightBlock) {
+  vec4 lightColour;                   // irradiance or radiant intensity, rgb
+  vec4 lightDirection;                // unit; where a directional light travels to, the axis of a spot
+  vec4 lightPosition;                 // point, spot; w: range, 0 if without limit
+  vec4 cone;                          // cos(outer), cos(inner), 1 / (cos(inner) - cos(outer)) or 0 for a hard edge
+  vec4 boundary;                      // the light's path in the medium at x is max(0, dot(xyz, x) + w); all 0 if none
+  ivec4 viewCounts;                   // shadow views, 1 if lit outside of them, shadow map width, height
+  mat4 texelFromCamera[MAX_SHADOW_VIEWS]; // (x, y, z, 1) to (texel x, texel y, depth, 1) w; depth grows away from the light
+  vec4 viewDepth[MAX_SHADOW_VIEWS];   // depth of near and far plane, sign of stored depth, 1 if open beyond the far plane
+  ivec4 viewLayer[MAX_SHADOW_VIEWS];  // array layer in x
+};
