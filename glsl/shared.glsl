@@ -25,7 +25,9 @@ UNIFORM_BLOCK(LightBlock) {
   vec4 lightColour;                   // irradiance or radiant intensity, rgb
   vec4 lightDirection;                // unit; where a directional light travels to, the axis of a spot
   vec4 lightPosition;                 // point, spot; w: range, 0 if without limit
-  vec4 cone;                          // cos(outer), cos(inner), 1 / (cos(inner) - cos(outer)) or 0 for a hard edge
+  vec4 cone;                          // cos(outer), cos(inner), 1 / (cos(inner) - cos(outer)) or 0 for a hard edge,
+                                      // w: panels (in x of airlight.glsl) up to which two nodes resolve the falloff
+  vec4 coneSinSquared;                // sin^2(outer), sin^2(inner)
   vec4 boundary;                      // the light's path in the medium at x is max(0, dot(xyz, x) + w); all 0 if none
   ivec4 viewCounts;                   // shadow views, 1 if lit outside of them, shadow map width, height
   mat4 texelFromCamera[MAX_SHADOW_VIEWS]; // (x, y, z, 1) to (texel x, texel y, depth, 1) w; depth grows away from the light

@@ -64,23 +64,29 @@ struct Airlight {
   float height2; // squared distance of the ray to the light
 #if LIGHT_KIND == 2
   float axisFoot, axisSlope; // dot(axis, point - light) = axisFoot + (s - foot) axisSlope
+  vec3 sineFoot, sineSlope;  // cross(axis, point - light), likewise
   vec2 lit, inner;           // intervals of s inside the outer and inside the inner cone
 #endif
 };
 
 #if LIGHT_KIND == 2
-// The interval of t = s - foot in which the ray is inside the cone of the given cosine (>= 0): where
-// b + t v >= c sqrt(t^2 + h^2). Squared, (v^2 - c^2) t^2 + 2 b v t + b^2 - c^2 h^2 >= 0 with b + t v >= 0; the convex
-// cone meets the line in one interval, so that the roots on the forward side bound it.
-vec2 coneInterval(float b, float v, float height2, float c) {
+// The interval of t = s - foot in which the ray is inside a cone (x: cosine >= 0, y: squared sine of its half angle):
+// where b + t v >= c sqrt(t^2 + h^2). Squared, A t^2 + 2 b v t + C >= 0 with A = v^2 - c^2, C = b^2 - c^2 h^2 and
+// b + t v >= 0; the convex cone meets the line in one interval, which the roots on the forward side bound. For narrow
+// cones A and C come from the sines, in which nothing cancels: X(t) = axis x (point - light) = X0 + t X1, sin = |X| / r.
+vec2 coneInterval(Airlight light, vec2 cosSinSquared) {
   const vec2 kNone = vec2(1.0, -1.0);
   const float kFar = 1e30;
+  float b = light.axisFoot, v = light.axisSlope, c = cosSinSquared.x;
   if (c < 1e-4) { // a half-space: both nappes touch and the squared form has a double root
     if (v == 0.0) return b > 0.0 ? vec2(-kFar, kFar) : kNone;
     return v > 0.0 ? vec2(-b / v, kFar) : vec2(-kFar, -b / v);
   }
-  float A = v * v - c * c, B = b * v, C = b * b - c * c * height2;
-  float discriminant = c * c * (b * b + height2 * A);
+  bool narrow = cosSinSquared.y < 0.5;
+  float A = narrow ? cosSinSquared.y - dot(light.sineSlope, light.sineSlope) : v * v - c * c;
+  float C = narrow ? cosSinSquared.y * light.height2 - dot(light.sineFoot, light.sineFoot) : b * b - c * c * light.height2;
+  float B = b * v;
+  float discriminant = c * c * (b * b + light.height2 * A);
   if (!(discriminant > 0.0)) return kNone;
   // The stable pair of roots: q = -(B + sign(B) sqrt(D)), roots q / A and C / q.
   float q = -(B + (B < 0.0 ? -1.0 : 1.0) * sqrt(discriminant));
@@ -90,6 +96,19 @@ vec2 coneInterval(float b, float v, float height2, float c) {
   // A >= 0: the ray's direction lies inside the double cone, each nappe is crossed once. Else both roots share a nappe.
   if (A >= 0.0) return v > 0.0 ? vec2(high, kFar) : vec2(-kFar, low);
   return b + 0.5 * (low + high) * v > 0.0 ? vec2(low, high) : kNone;
+}
+
+// Falloff of KHR_lights_punctual at t, r: ((cos - cos outer) / (cos inner - cos outer))^2 in [0, 1].
+float coneFalloff(Airlight light, float t, float r) {
+  if (cone.z == 0.0) return 1.0; // a hard edge: the span ends at it
+  float cosine = (light.axisFoot + t * light.axisSlope) / r;
+  float difference = cosine - cone.x;
+  if (coneSinSquared.x < 0.5) {
+    vec3 sine = (light.sineFoot + t * light.sineSlope) / r;
+    difference = (coneSinSquared.x - dot(sine, sine)) / (cosine + cone.x);
+  }
+  float falloff = clamp(difference * cone.z, 0.0, 1.0);
+  return falloff * falloff;
 }
 #endif
 
@@ -104,8 +123,10 @@ Airlight airlightOf(Ray ray) {
   vec3 footFromLight = ray.direction * light.foot - toLight;
   light.axisFoot = dot(lightDirection.xyz, footFromLight);
   light.axisSlope = dot(lightDirection.xyz, ray.direction);
-  light.lit = light.foot + coneInterval(light.axisFoot, light.axisSlope, light.height2, cone.x);
-  light.inner = light.foot + coneInterval(light.axisFoot, light.axisSlope, light.height2, cone.y);
+  light.sineFoot = cross(lightDirection.xyz, footFromLight);
+  light.sineSlope = cross(lightDirection.xyz, ray.direction);
+  light.lit = light.foot + coneInterval(light, vec2(cone.x, coneSinSquared.x));
+  light.inner = light.foot + coneInterval(light, vec2(cone.y, coneSinSquared.y));
 #endif
   return light;
 }
@@ -129,9 +150,9 @@ void litRange(Airlight light, inout float s0, inout float s1) {
 // are, so that panels of bounded length converge alike everywhere. P = r + t and N = r - t (P N = h^2) scale as
 // exp(+-x): a step along x multiplies P and divides N, h itself is not needed, and 1 - cos(theta) = P / r exactly.
 
-// Length of [t0, t1] in x: asinh of sinh(x1 - x0), in the form that does not cancel.
-float panelLength(float t0, float r0, float t1, float r1, float height2) {
-  float y = t0 * t1 > 0.0 ? (t1 - t0) * ((t1 + t0) / (t1 * r0 + r1 * t0)) : (t1 * r0 - r1 * t0) / height2;
+// Length of [t0, t1] in x: asinh of sinh(x1 - x0), in the form that does not cancel. len = t1 - t0, known better than that.
+float panelLength(float t0, float r0, float t1, float r1, float len, float height2) {
+  float y = t0 * t1 > 0.0 ? len * ((t1 + t0) / (t1 * r0 + r1 * t0)) : (t1 * r0 - r1 * t0) / height2;
   y = min(y, 1e30);
   if (y < 0.3) {
     float y2 = y * y;
@@ -145,9 +166,7 @@ Spectrum pointIntegrand(Airlight light, float P, float N, float start, float P0)
   float r = 0.5 * (P + N);
   Spectrum value = scatteringTowardsEye(P / r, N / r) * exp(-SPECTRUM(extinction) * (start + (P - P0))) / r;
 #if LIGHT_KIND == 2
-  float cosAxis = (light.axisFoot + 0.5 * (P - N) * light.axisSlope) / r;
-  float falloff = cone.z > 0.0 ? clamp((cosAxis - cone.x) * cone.z, 0.0, 1.0) : 1.0;
-  value *= falloff * falloff;
+  value *= coneFalloff(light, 0.5 * (P - N), r);
 #endif
   return value;
 }
@@ -156,7 +175,7 @@ const float kNode6[3] = float[3](0.2386191860831969, 0.6612093864662645, 0.93246
 const float kWeight6[3] = float[3](0.4679139345726910, 0.3607615730481386, 0.1713244923791704);
 const float kNode2 = 0.5773502691896257;
 
-// One smooth piece of a span: panels in x, at most 2 long and at most 6 optical depths deep, Gauss-Legendre in each.
+// One smooth piece of a span: panels in x, at most 1 or 2 long and at most 6 optical depths deep, Gauss-Legendre in each.
 Spectrum pointPiece(Airlight light, float s0, float s1) {
   const int kMaxPanels = 32;
   const float kDark = 20.0; // optical depths beyond the start after which nothing counts
@@ -165,7 +184,15 @@ Spectrum pointPiece(Airlight light, float s0, float s1) {
   float r0 = sqrt(t0 * t0 + light.height2), r1 = sqrt(t1 * t1 + light.height2);
   float P0 = t0 > 0.0 ? r0 + t0 : light.height2 / (r0 - t0);
   float N0 = t0 > 0.0 ? light.height2 / (r0 + t0) : r0 - t0;
-  float remaining = panelLength(t0, r0, t1, r1, light.height2);
+  float remaining = panelLength(t0, r0, t1, r1, s1 - s0, light.height2);
+#if LIGHT_KIND == 2
+  const float longPanel = 1.0; // the falloff's poles at |Im x| = pi/2 are of fourth order
+  // Along a chord of the cone the falloff is a bump: two nodes resolve it only over a small part of the chord and of the
+  // soft edge (len bounds the angle that a panel covers).
+  float shortPanel = cone.z == 0.0 ? 0.2 : min(cone.w, 0.1 * (light.lit.y - light.lit.x) / max(r0, r1));
+#else
+  const float longPanel = 2.0, shortPanel = 0.2;
+#endif
   float start = s0 + r0;
   vec3 sigma = extinction.rgb;
   Spectrum sum = Spectrum(0.0);
@@ -177,11 +204,11 @@ Spectrum pointPiece(Airlight light, float s0, float s1) {
     if (all(dark)) break;
     vec3 alive = mix(sigma, vec3(0.0), dark);
     float rate = max(alive.r, max(alive.g, alive.b)) * P;
-    float len = i == kMaxPanels - 1 ? remaining : min(remaining, min(2.0, rate > 0.0 ? log(1.0 + 6.0 / rate) : 2.0));
+    float len = i == kMaxPanels - 1 ? remaining : min(remaining, min(longPanel, rate > 0.0 ? log(1.0 + 6.0 / rate) : longPanel));
     float halfLength = 0.5 * len;
     float middle = exp(halfLength);
     float Pm = P * middle, Nm = N / middle;
-    if (len < 0.2 && rate * len < 0.3) {
+    if (len < shortPanel && rate * len < 0.3) {
       float step = exp(halfLength * kNode2);
       sum += halfLength * (pointIntegrand(light, Pm / step, Nm * step, start, P0) +
                            pointIntegrand(light, Pm * step, Nm / step, start, P0));

@@ -120,10 +120,11 @@ namespace {
 
 glm::vec4 coneOf(const Light& light) {
   // Below this difference of cosines the falloff is narrower than float32 tells from a step.
-  constexpr double kHardEdge = 1e-4;
+  constexpr double kHardEdge = 1e-6;
   const double outer = std::cos(light.outerConeAngle), inner = std::cos(light.innerConeAngle);
   const bool hard = inner - outer < kHardEdge;
-  return glm::vec4(std::max(outer, 0.0), inner, hard ? 0 : 1 / (inner - outer), 0);
+  return glm::vec4(std::max(outer, 0.0), inner, hard ? 0 : 1 / (inner - outer),
+                   hard ? 0.2 : std::min(0.2, 0.25 * (light.outerConeAngle - light.innerConeAngle)));
 }
 
 // The light's way through the medium, as a linear function of the camera-relative point.
@@ -145,6 +146,8 @@ blocks::LightBlock lightBlock(const Light& light, const Camera& camera, int shad
   block.lightDirection = glm::vec4(direction, 0);
   block.lightPosition = glm::vec4(toGlm(light.position) - origin, std::isfinite(light.range) ? light.range : 0);
   block.cone = coneOf(light);
+  const glm::dvec2 sines(std::sin(light.outerConeAngle), std::sin(light.innerConeAngle));
+  block.coneSinSquared = glm::vec4(sines * sines, 0, 0);
   block.boundary = boundaryOf(light.boundary, direction, origin);
   const auto count = static_cast<int>(light.shadow.texture ? light.shadow.views.size() : 0);
   block.viewCounts = glm::ivec4(count, light.litOutsideViews ? 1 : 0, shadowWidth, shadowHeight);

@@ -1,0 +1,44 @@
+#include "support/TestContext.h"
+
+#define CATCH_CONFIG_EXTERNAL_INTERFACES
+#include <catch2/catch.hpp>
+#include <cstdlib>
+
+namespace tests {
+
+namespace {
+
+host::Context* theContext = nullptr; ///< null until a test asks for it
+
+/// Reports GL errors while the section in which they arose still runs, so that they count as its failures.
+class GlErrorListener : public Catch::TestEventListenerBase {
+public:
+  using TestEventListenerBase::TestEventListenerBase;
+
+  void sectionEnded(const Catch::SectionStats& stats) override {
+    if (!theContext) {
+      return;
+    }
+    for (const std::string& error : theContext->takeErrors()) {
+      FAIL_CHECK("GL error in \"" << stats.sectionInfo.name << "\": " << error);
+    }
+  }
+};
+
+CATCH_REGISTER_LISTENER(GlErrorListener)
+
+} // namespace
+
+host::ContextKind testContextKind() {
+  const char* name = std::getenv("TYNDALL_TEST_CONTEXT");
+  return host::parseContextKind(name ? name : "osmesa");
+}
+
+host::Context& testContext() {
+  static const std::unique_ptr<host::Context> context = host::Context::create(testContextKind());
+  theContext = context.get();
+  context->makeCurrent();
+  return *context;
+}
+
+} // namespace tests

@@ -1,0 +1,14 @@
+// The GL context that tests run in. A test case after which the context reports GL errors fails.
+#pragma once
+
+#include "gl/Context.h"
+
+namespace tests {
+
+/// The kind that the environment's TYNDALL_TEST_CONTEXT names; OSMesa if it is not set.
+host::ContextKind testContextKind();
+
+/// The one context of this process, made when first asked for, and current on return.
+host::Context& testContext();
+
+} // namespace tests
