@@ -189,7 +189,7 @@ Spectrum pointPiece(Airlight light, float s0, float s1) {
   const float longPanel = 1.0; // the falloff's poles at |Im x| = pi/2 are of fourth order
   // Along a chord of the cone the falloff is a bump: two nodes resolve it only over a small part of the chord and of the
   // soft edge (len bounds the angle that a panel covers).
-  float shortPanel = cone.z == 0.0 ? 0.2 : min(cone.w, 0.1 * (light.lit.y - light.lit.x) / max(r0, r1));
+  float shortPanel = cone.z == 0.0 ? 0.2 : min(cone.w, 0.05 * (light.lit.y - light.lit.x) / max(r0, r1));
 #else
   const float longPanel = 2.0, shortPanel = 0.2;
 #endif

@@ -124,7 +124,7 @@ glm::vec4 coneOf(const Light& light) {
   const double outer = std::cos(light.outerConeAngle), inner = std::cos(light.innerConeAngle);
   const bool hard = inner - outer < kHardEdge;
   return glm::vec4(std::max(outer, 0.0), inner, hard ? 0 : 1 / (inner - outer),
-                   hard ? 0.2 : std::min(0.2, 0.25 * (light.outerConeAngle - light.innerConeAngle)));
+                   hard ? 0.2 : std::min(0.2, 0.05 * (light.outerConeAngle - light.innerConeAngle)));
 }
 
 // The light's way through the medium, as a linear function of the camera-relative point.
