@@ -102,27 +102,42 @@ float weightIntegral(vec2 offset0, vec2 slope, float u0, float u1) {
   return halfLength * (x.x * x.y + y.x * y.y);
 }
 
-// Mean over [u, uEnd] of the visibility in one cell between four texel centres (2x2 percentage-closer filtering); each
-// texel's own comparison flips where the line crosses its depth. p0, slope: the line, texel centres at integers.
-Visibility cellVisibility(ivec2 cell, vec3 p0, vec3 slope, int view, float u, float uEnd) {
+// Mean visibility of [u, uEnd] in one cell between four texel centres (2x2 percentage-closer filtering). Each texel's own
+// comparison flips where the line crosses its depth: uEnd is cut at the first crossing, so that up to there only the
+// bilinear weights vary. p0, slope: the line, texel centres at integers.
+Visibility cellVisibility(ivec2 cell, vec3 p0, vec3 slope, int view, float u, inout float uEnd) {
   ivec2 last = viewCounts.zw - 1;
+  float inverseDepth = 1.0 / slope.z;
+  vec4 depth;
+#if GLASS
+  vec4 pane;
+#endif
+  for (int k = 0; k < 4; ++k) {
+    ivec2 texel = clamp(cell + ivec2(k & 1, k >> 1), ivec2(0), last);
+    depth[k] = casterDepth(texel, view);
+    float crossing = (depth[k] - p0.z) * inverseDepth;
+    if (crossing > u && crossing < uEnd) uEnd = crossing;
+#if GLASS
+    pane[k] = paneDepth(texel, view);
+    float paneCrossing = (pane[k] - p0.z) * inverseDepth;
+    if (paneCrossing > u && paneCrossing < uEnd) uEnd = paneCrossing;
+#endif
+  }
+  float receiver = p0.z + slope.z * (0.5 * (u + uEnd));
+  bvec4 lit = greaterThanEqual(depth, vec4(receiver));
+  if (!any(lit)) return Visibility(0.0);
+#if GLASS
+  if (all(lit) && !any(lessThan(pane, vec4(receiver)))) return vec3(1.0);
+#else
+  if (all(lit)) return 1.0;
+#endif
   Visibility sum = Visibility(0.0);
   for (int k = 0; k < 4; ++k) {
+    if (!(receiver <= depth[k])) continue;
     ivec2 corner = cell + ivec2(k & 1, k >> 1);
-    ivec2 texel = clamp(corner, ivec2(0), last);
-    float depth = casterDepth(texel, view);
-    float crossing = clamp((depth - p0.z) / slope.z, u, uEnd);
-    bool litFirst = p0.z + slope.z * u <= depth, litLast = p0.z + slope.z * uEnd <= depth;
-    if (!litFirst && !litLast) continue;
-    vec2 lit = vec2(litFirst ? u : crossing, litLast ? uEnd : crossing);
-    float weight = weightIntegral(p0.xy - vec2(corner), slope.xy, lit.x, lit.y);
+    float weight = weightIntegral(p0.xy - vec2(corner), slope.xy, u, uEnd);
 #if GLASS
-    float pane = paneDepth(texel, view);
-    float paneCrossing = clamp((pane - p0.z) / slope.z, lit.x, lit.y);
-    bool behindFirst = p0.z + slope.z * lit.x > pane, behindLast = p0.z + slope.z * lit.y > pane;
-    vec2 behind = vec2(behindFirst ? lit.x : paneCrossing, behindLast ? lit.y : paneCrossing);
-    float tinted = behindFirst || behindLast ? weightIntegral(p0.xy - vec2(corner), slope.xy, behind.x, behind.y) : 0.0;
-    sum += vec3(weight - tinted) + tinted * paneTint(texel, view);
+    sum += receiver > pane[k] ? weight * paneTint(clamp(corner, ivec2(0), last), view) : vec3(weight);
 #else
     sum += weight;
 #endif
@@ -139,7 +154,7 @@ Light segmentLight(Airlight light, ViewSegment segment) {
 #if FILTER_BILINEAR
   const float kShift = 0.5; // texel centres to integers
   const int kLowest = -1;   // the cell before the first centre
-  const int kEventsPerCell = 1;
+  const int kEventsPerCell = 5 + 4 * GLASS; // a cut at each texel's depth and pane
 #else
   const float kShift = 0.0;
   const int kLowest = 0;
@@ -177,7 +192,10 @@ Light segmentLight(Airlight light, ViewSegment segment) {
       if (cell == lastCell) uCell = 1.0;
       uEnd = max(u, uCell);
 #if FILTER_BILINEAR
-      visibility = cellVisibility(cell, p0, slope, view, u, uEnd);
+      float uCut = uEnd;
+      visibility = cellVisibility(cell, p0, slope, view, u, uCut);
+      cellEnds = uCut == uEnd;
+      uEnd = uCut;
 #else
       float depth = casterDepth(cell, view);
       float crossing = (depth - p0.z) * inverseDepth;

@@ -17,7 +17,8 @@ bool isDepth(GLenum format) {
 GLenum transferFormat(GLenum internalFormat) {
   if (isDepth(internalFormat)) return GL_DEPTH_COMPONENT;
   if (internalFormat == GL_R32F) return GL_RED;
-  return internalFormat == GL_RGB32F || internalFormat == GL_RGB16F || internalFormat == GL_R11F_G11F_B10F ? GL_RGB : GL_RGBA;
+  return internalFormat == GL_RGB32F || internalFormat == GL_RGB16F || internalFormat == GL_R11F_G11F_B10F ? GL_RGB
+                                                                                                           : GL_RGBA;
 }
 
 } // namespace
@@ -37,15 +38,17 @@ tyndall::Effect& testEffect() {
 host::GlTexture floatTexture(GLenum internalFormat, int width, int height, const std::vector<float>& values) {
   host::GlTexture texture = host::makeTexture2D(internalFormat, width, height);
   host::gl().PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  host::gl().TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, transferFormat(internalFormat), GL_FLOAT, values.data());
+  host::gl().TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, transferFormat(internalFormat), GL_FLOAT,
+                           values.data());
   return texture;
 }
 
-host::GlTexture floatTextureArray(GLenum internalFormat, int width, int height, int layers, const std::vector<float>& values) {
+host::GlTexture floatTextureArray(GLenum internalFormat, int width, int height, int layers,
+                                  const std::vector<float>& values) {
   host::GlTexture texture = host::makeTextureArray(internalFormat, width, height, layers);
   host::gl().PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  host::gl().TexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, width, height, layers, transferFormat(internalFormat), GL_FLOAT,
-                           values.data());
+  host::gl().TexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, width, height, layers, transferFormat(internalFormat),
+                           GL_FLOAT, values.data());
   return texture;
 }
 

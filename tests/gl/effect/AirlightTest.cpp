@@ -1,5 +1,5 @@
-// Unshadowed light against closed forms and adaptive quadrature: every light, every phase function, extinction from 0 to
-// 100 and distances from 1e-2 to 1e5.
+// Unshadowed light against closed forms and adaptive quadrature: every light, every phase function, extinction from 0
+// to 100 and distances from 1e-2 to 1e5.
 #include "support/EffectRig.h"
 
 #include <algorithm>
@@ -28,13 +28,14 @@ std::vector<float> sweepDepth() {
   return depth;
 }
 
-const std::vector<Rgb> kExtinctions = {{0, 1e-7F, 1e-6F},  {1e-5F, 1e-4F, 1e-3F}, {0.01F, 0.03F, 0.1F},
-                                       {0.3F, 1, 3},       {10, 30, 100},         {0, 0.1F, 100}};
+const std::vector<Rgb> kExtinctions = {{0, 1e-7F, 1e-6F}, {1e-5F, 1e-4F, 1e-3F}, {0.01F, 0.03F, 0.1F},
+                                       {0.3F, 1, 3},      {10, 30, 100},         {0, 0.1F, 100}};
 
 std::vector<double> truthOf(tests::FrameRig& rig) { return rig.reference().inscatter.rgb; }
 
-// How far the truth itself moves, per value, if the light's position and axis and the ray's length are rounded to float32
-// as the effect must do: where a ray grazes a cone or ends just behind its wall, that is more than the integral's error.
+// How far the truth itself moves, per value, if the light's position and axis and the ray's length are rounded to
+// float32 as the effect must do: where a ray grazes a cone or ends just behind its wall, that is more than the
+// integral's error.
 std::vector<double> conditioning(tests::FrameRig& rig, const std::vector<double>& truth) {
   constexpr double kRounding = 2.4e-7; // four roundings of float32
   const Light light = rig.frame.lights[0];
@@ -70,7 +71,8 @@ std::vector<double> conditioning(tests::FrameRig& rig, const std::vector<double>
   return moved;
 }
 
-// The largest error of a sweep: relative, or absolute against the sweep's largest value where it is under 1e-12 of that.
+// The largest error of a sweep: relative, or absolute against the sweep's largest value where it is under 1e-12 of
+// that.
 double sweepError(const Sweep& sweep) {
   tests::FrameRig rig(kDistances, kDirections, sweepDepth());
   rig.frame.camera.viewFromWorld = tests::lookAt({1, 2, 3}, {1.3, 2.1, 0});
@@ -78,7 +80,9 @@ double sweepError(const Sweep& sweep) {
   rig.frame.camera.clipDepth = ClipDepth::ZeroToOne;
   rig.frame.lights = {sweep.light};
   std::vector<double> values, references, slack;
-  const auto append = [](std::vector<double>& to, const std::vector<double>& from) { to.insert(to.end(), from.begin(), from.end()); };
+  const auto append = [](std::vector<double>& to, const std::vector<double>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
   for (const Rgb& sigma : kExtinctions) {
     Constituent c = sweep.constituent;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -89,7 +93,8 @@ double sweepError(const Sweep& sweep) {
     append(values, rig.render().inscatter.rgb);
     const std::vector<double> truth = truthOf(rig);
     append(references, truth);
-    append(slack, sweep.light.kind == LightKind::Spot ? conditioning(rig, truth) : std::vector<double>(truth.size(), 0));
+    append(slack,
+           sweep.light.kind == LightKind::Spot ? conditioning(rig, truth) : std::vector<double>(truth.size(), 0));
   }
   const double largest = *std::max_element(references.begin(), references.end());
   REQUIRE(largest > 0);
@@ -97,7 +102,8 @@ double sweepError(const Sweep& sweep) {
   std::size_t at = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     REQUIRE(std::isfinite(values[i]));
-    const double error = std::max(0.0, std::abs(values[i] - references[i]) - slack[i]) / std::max(references[i], 1e-12 * largest);
+    const double error =
+        std::max(0.0, std::abs(values[i] - references[i]) - slack[i]) / std::max(references[i], 1e-12 * largest);
     if (error > worst) at = i;
     worst = std::max(worst, error);
   }
@@ -108,9 +114,12 @@ double sweepError(const Sweep& sweep) {
   return worst;
 }
 
-const std::vector<Constituent> kConstituents = {{{}, Phase::Isotropic, 0},          {{}, Phase::Rayleigh, 0},
-                                                {{}, Phase::HenyeyGreenstein, 0.6F}, {{}, Phase::HenyeyGreenstein, -0.5F},
-                                                {{}, Phase::HenyeyGreenstein, 0.95F}, {{}, Phase::CornetteShanks, 0.76F}};
+const std::vector<Constituent> kConstituents = {{{}, Phase::Isotropic, 0},
+                                                {{}, Phase::Rayleigh, 0},
+                                                {{}, Phase::HenyeyGreenstein, 0.6F},
+                                                {{}, Phase::HenyeyGreenstein, -0.5F},
+                                                {{}, Phase::HenyeyGreenstein, 0.95F},
+                                                {{}, Phase::CornetteShanks, 0.76F}};
 
 } // namespace
 
@@ -137,7 +146,8 @@ TEST_CASE("a directional light in a bounded medium equals its closed form") {
 
 TEST_CASE("unshadowed point light equals adaptive quadrature") {
   for (const Constituent& c : kConstituents)
-    for (const Vec3& position : {Vec3{1, 3, 1}, Vec3{-20, 5, -300}, Vec3{1.05, 2.01, 2.9}, Vec3{0.5, 1.5, 30}, Vec3{2e4, 1e4, -7e4}}) {
+    for (const Vec3& position :
+         {Vec3{1, 3, 1}, Vec3{-20, 5, -300}, Vec3{1.05, 2.01, 2.9}, Vec3{0.5, 1.5, 30}, Vec3{2e4, 1e4, -7e4}}) {
       Sweep sweep{{}, c};
       sweep.light.kind = LightKind::Point;
       sweep.light.position = position;

@@ -1,0 +1,142 @@
+// Single scattering along one ray from one light, without shadows, in double precision.
+#pragma once
+
+#include "Ray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tyndall/tyndall.h>
+
+namespace reference {
+
+/// Phase function in 1/sr; theta is the angle between the light's travel direction and the direction to the eye.
+double phase(tyndall::Phase kind, double g, double cosTheta);
+
+/// All scattering plus absorption, 1/world unit.
+Rgb extinction(const tyndall::Medium& medium);
+
+/// exp(-extinction distance); the distance may be infinite.
+Rgb transmittance(const tyndall::Medium& medium, double distance);
+
+/// The cone falloff of KHR_lights_punctual in [0, 1]; a hard step when the two cones' cosines differ by less than 1e-6.
+double spotFalloff(const tyndall::Light& light, double cosAngle);
+
+/// The in-scattered radiance that a medium and a light send along one ray to its origin:
+///     integral of  exp(-sigma_t s) [sum_k sigma_k p_k] E(s) ds.
+/// Directional light has a closed form. For point and spot light let t be the distance past the foot of the
+/// perpendicular from the light (length h) to the ray, and r = sqrt(t^2 + h^2). On each side of the foot the
+/// substitution  e = |t| + r = e0 exp(w)  turns dt/r^2 into dw/r and leaves an integrand whose phase, falloff and
+/// 1/r vary on a scale of 1 in w whatever h is, h = 0 included. The light's path s + r is foot + e behind the foot
+/// and foot + h^2/e before it, free of cancellation.
+class Airlight {
+public:
+  Airlight(const tyndall::Medium& medium, const tyndall::Light& light, const Ray& ray);
+
+  /// The only part of the ray that can contribute: inside range and cone, and before exp(-sigma_t s) underflows.
+  /// Always finite.
+  Interval support() const { return support_; }
+
+  /// The radiance from the lit span [s0, s1], 0 <= s0; s1 may be infinite. Relative accuracy 1e-9.
+  /// Infinite where the span holds the point light itself.
+  Rgb span(double s0, double s1) const;
+
+  /// The radiance from [s0, s1] with the light at distance s multiplied by weight(s), an Rgb, smooth and close to
+  /// quadratic over the span, which must be finite.
+  template <class Weight>
+  Rgb weighted(double s0, double s1, const Weight& weight) const {
+    Rgb sum{0};
+    forEachPiece(s0, s1, [&](double a, double b) { sum += weightedPiece(a, b, weight); });
+    return sum;
+  }
+
+private:
+  /// A piece of one side of the foot: e runs from e0 to e0 exp(width); side is +1 behind the foot, -1 before it.
+  struct Panel {
+    double side;
+    double e0;
+    double width;
+  };
+  struct Node {
+    double s;
+    Rgb value; ///< integrand times ds/dw
+  };
+  struct Nodes {
+    int count;
+    const double* abscissas; ///< on [-1, 1]
+    const double* weights;
+  };
+
+  void prepareDirectional(const tyndall::Light& light);
+  void preparePoint(const tyndall::Light& light);
+  void addConeCrossings(double cosCone);
+  void clipToCone();
+  Rgb phaseSum(double cosTheta) const;
+  Rgb expExtinction(double distance) const;
+
+  Rgb directionalPiece(double s0, double s1) const;
+  Node directionalNode(double a, double width, double x) const;
+  Rgb pointPiece(double s0, double s1) const;
+  Panel panel(double s0, double s1) const;
+  Node pointNode(const Panel& panel, double x) const;
+  double panelVariation(const Panel& panel) const;
+  Rgb adaptive(const Panel& panel, const Rgb& total, int depth) const;
+  static Nodes nodesFor(double variation);
+
+  /// Calls visit(a, b) for the stretches of [s0, s1] between range, cone, foot and boundary plane.
+  template <class Visit>
+  void forEachPiece(double s0, double s1, const Visit& visit) const {
+    double a = std::max(s0, support_.begin);
+    const double end = std::min(s1, support_.end);
+    for (std::size_t i = 0; a < end && i <= breaks_.size(); ++i) {
+      const double b = i < breaks_.size() ? std::min(breaks_[i], end) : end;
+      if (b <= a) continue;
+      visit(a, b);
+      a = b;
+    }
+  }
+
+  template <class Weight>
+  Rgb weightedPiece(double a, double b, const Weight& weight) const {
+    const Panel whole = isPoint_ ? panel(a, b) : Panel{1, a, b - a};
+    const double variation =
+        isPoint_ ? panelVariation(whole) : maxExtinction_ * (1 + std::abs(boundarySlope_)) * (b - a);
+    const int count = static_cast<int>(std::min(4096.0, std::ceil(4 * variation + 1e-9)));
+    const Nodes nodes = nodesFor(variation / count);
+    Rgb sum{0};
+    for (int i = 0; i < count; ++i) {
+      for (int k = 0; k < nodes.count; ++k) {
+        const double x = (i + 0.5 + 0.5 * nodes.abscissas[k]) / count;
+        const Node node = isPoint_ ? pointNode(whole, x) : directionalNode(a, b - a, x);
+        sum += nodes.weights[k] * node.value * weight(node.s);
+      }
+    }
+    return sum * (0.5 * whole.width / count);
+  }
+
+  Ray ray_;
+  tyndall::Light light_;
+  std::vector<tyndall::Constituent> constituents_;
+  Rgb colour_;
+  Rgb extinction_;
+  double maxExtinction_ = 0;
+  bool grey_ = false;    ///< one extinction for all channels
+  bool isPoint_ = false; ///< point or spot
+  Interval support_;
+  std::vector<double> breaks_; ///< sorted
+  Rgb source_{0};              ///< directional: irradiance times the phase sum
+  double boundaryOffset_ = 0;  ///< directional: path of the light in the medium is offset + slope s, where positive
+  double boundarySlope_ = 0;
+  double foot_ = 0;   ///< point, spot: distance along the ray of the point nearest to the light
+  double height_ = 0; ///< point, spot: distance of the light from the ray
+  bool spot_ = false;
+  bool hardCone_ = false;
+  double cosOuter_ = 0;
+  double cosInner_ = 1;
+  double axisAtFoot_ = 0; ///< spot: distance along the cone's axis of the foot, and its growth with t
+  double axisSlope_ = 0;
+};
+
+/// The radiance from the lit span [s0, s1] of a ray, see Airlight.
+Rgb integrate(const tyndall::Medium& medium, const tyndall::Light& light, const Ray& ray, double s0, double s1);
+
+} // namespace reference

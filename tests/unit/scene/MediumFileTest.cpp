@@ -1,0 +1,125 @@
+#include "GltfFile.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <scene/Error.h>
+#include <scene/MediumFile.h>
+
+namespace tests {
+
+namespace {
+
+nlohmann::json good() {
+  return nlohmann::json::parse(R"({
+    "constituents": [{"scattering": [0.1, 0.2, 0.3], "phase": "rayleigh"},
+                     {"scattering": [1, 2, 3], "phase": "cornette-shanks", "g": -0.5},
+                     {"scattering": [0, 0, 0]},
+                     {"scattering": [1, 1, 1], "phase": "henyey-greenstein", "g": 0.75}],
+    "absorption": [0.5, 0.25, 0],
+    "farDistance": 1000})");
+}
+
+std::string refusal(const nlohmann::json& json) {
+  try {
+    host::parseMedium(json, "fog");
+  } catch (const host::Error& error) {
+    CHECK(std::string(error.what()).rfind("fog", 0) == 0);
+    return error.what();
+  }
+  FAIL("not refused: " << json.dump());
+  return {};
+}
+
+std::string refusal(const std::string& path, const nlohmann::json& value) {
+  nlohmann::json json = good();
+  json[nlohmann::json::json_pointer(path)] = value;
+  return refusal(json);
+}
+
+std::string fileRefusal(const std::filesystem::path& file) {
+  try {
+    host::loadMedium(file);
+  } catch (const host::Error& error) {
+    return error.what();
+  }
+  FAIL("not refused: " << file);
+  return {};
+}
+
+} // namespace
+
+TEST_CASE("A medium is read", "[scene][medium]") {
+  const tyndall::Medium medium = host::parseMedium(good(), "fog");
+  REQUIRE(medium.constituents.size() == 4);
+  CHECK(medium.constituents[0].scattering == tyndall::Rgb{0.1F, 0.2F, 0.3F});
+  CHECK(medium.constituents[0].phase == tyndall::Phase::Rayleigh);
+  CHECK(medium.constituents[1].phase == tyndall::Phase::CornetteShanks);
+  CHECK(medium.constituents[1].g == -0.5F);
+  CHECK(medium.constituents[2].phase == tyndall::Phase::Isotropic);
+  CHECK(medium.constituents[3].phase == tyndall::Phase::HenyeyGreenstein);
+  CHECK(medium.constituents[3].g == 0.75F);
+  CHECK(medium.absorption == tyndall::Rgb{0.5F, 0.25F, 0});
+  CHECK(medium.farDistance == 1000);
+}
+
+TEST_CASE("Everything in a medium is optional but scattering", "[scene][medium]") {
+  const tyndall::Medium medium = host::parseMedium(nlohmann::json::object(), "fog");
+  CHECK(medium.constituents.empty());
+  CHECK(medium.absorption == tyndall::Rgb{0, 0, 0});
+  CHECK(medium.farDistance == tyndall::kInfinity);
+  CHECK_THAT(refusal(nlohmann::json{{"constituents", {{{"phase", "rayleigh"}}}}}),
+             Catch::Contains("fog.constituents[0].scattering: is missing"));
+}
+
+TEST_CASE("A medium that breaks a rule is refused by field", "[scene][medium]") {
+  using Catch::Contains;
+  CHECK_THAT(refusal(nlohmann::json::array()), Contains("fog: must be an object"));
+  CHECK_THAT(refusal("/colour", 1), Contains("fog: unknown key \"colour\""));
+  CHECK_THAT(refusal("/constituents/0/density", 1), Contains("fog.constituents[0]: unknown key \"density\""));
+  CHECK_THAT(refusal("/constituents", 3), Contains("fog.constituents: must be an array of at most 4"));
+  CHECK_THAT(refusal("/constituents/4", good()["constituents"][0]), Contains("at most 4"));
+  CHECK_THAT(refusal("/constituents/0", 7), Contains("fog.constituents[0]: must be an object"));
+  CHECK_THAT(refusal("/constituents/0/scattering", {1, 2}), Contains("scattering: must be 3 numbers"));
+  CHECK_THAT(refusal("/constituents/0/scattering", 1), Contains("scattering: must be 3 numbers"));
+  CHECK_THAT(refusal("/constituents/0/scattering/2", -1e-9), Contains("scattering[2]: -1e-09 must be finite"));
+  CHECK_THAT(refusal("/constituents/0/scattering/1", NAN), Contains("scattering[1]"));
+  CHECK_THAT(refusal("/constituents/0/scattering/1", INFINITY), Contains("scattering[1]"));
+  CHECK_THAT(refusal("/constituents/0/scattering/1", 1e39), Contains("scattering[1]"));
+  CHECK_THAT(refusal("/constituents/0/scattering/1", "1"), Contains("scattering[1]: must be a number"));
+  CHECK_THAT(refusal("/absorption/0", -1), Contains("fog.absorption[0]"));
+  CHECK_THAT(refusal("/absorption", {1, 2, 3, 4}), Contains("fog.absorption: must be 3 numbers"));
+  CHECK_THAT(refusal("/constituents/0/phase", "mie"), Contains("fog.constituents[0].phase: \"mie\" must be"));
+  CHECK_THAT(refusal("/constituents/0/phase", 1), Contains("fog.constituents[0].phase"));
+  CHECK_THAT(refusal("/constituents/0/g", 0), Contains("fog.constituents[0].g: only"));
+  CHECK_THAT(refusal("/constituents/2/g", 0.5), Contains("fog.constituents[2].g: only"));
+  for (const nlohmann::json& g : {nlohmann::json(1), nlohmann::json(-1), nlohmann::json(2), nlohmann::json(NAN),
+                                  nlohmann::json(0.999999999), nlohmann::json("0.5"), nlohmann::json()}) {
+    CHECK_THAT(refusal("/constituents/1/g", g), Contains("fog.constituents[1].g"));
+  }
+  for (const nlohmann::json& distance :
+       {nlohmann::json(0), nlohmann::json(-1), nlohmann::json(NAN), nlohmann::json("far")}) {
+    CHECK_THAT(refusal("/farDistance", distance), Contains("fog.farDistance"));
+  }
+}
+
+TEST_CASE("A medium file is read, or refused by name", "[scene][medium]") {
+  using Catch::Contains;
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& text) { writeBytes(folder / "m.json", {text.begin(), text.end()}); };
+  write(good().dump());
+  CHECK(host::loadMedium(folder / "m.json").constituents.size() == 4);
+  write("{\"constituents\": [");
+  CHECK_THAT(fileRefusal(folder / "m.json"), Contains("m.json: is not JSON"));
+  write("{\"absorption\": [0, 1e999, 0]}");
+  CHECK_THAT(fileRefusal(folder / "m.json"), Contains("m.json"));
+  write("{\"absorption\": [0, -1, 0]}");
+  CHECK_THAT(fileRefusal(folder / "m.json"), Contains("m.json: medium.absorption[1]"));
+  write("");
+  CHECK_THAT(fileRefusal(folder / "m.json"), Contains("m.json"));
+  CHECK_THAT(fileRefusal(folder / "none.json"), Contains("none.json: cannot be read: no such file"));
+  CHECK_THAT(fileRefusal(folder.path()), Contains("not a regular file"));
+}
+
+} // namespace tests

@@ -1,0 +1,15 @@
+# Scene, medium and image files. The executable links tyndall_scene and nlohmann_json, has tests/ among its include
+# folders and TYNDALL_SHARED_DIR defined as a string.
+set(TYNDALL_UNIT_SCENE_SOURCES
+  ${CMAKE_CURRENT_LIST_DIR}/AnimationTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/BrokenFilesTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/CameraLightTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/GeometryTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/GltfFile.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/GltfFile.h
+  ${CMAKE_CURRENT_LIST_DIR}/ImageFileTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/InvalidCorpusTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/MaterialTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/MediumFileTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/NodeTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/SampleFilesTest.cpp)
