@@ -35,7 +35,8 @@ host::Scene sceneOf(const std::vector<glm::vec3>& corners) {
   return scene;
 }
 
-host::Scene scatteredTriangles(std::uint32_t seed, int count, const glm::dvec3& low, const glm::dvec3& high, double size) {
+host::Scene scatteredTriangles(std::uint32_t seed, int count, const glm::dvec3& low, const glm::dvec3& high,
+                               double size) {
   Dice dice(seed);
   std::vector<glm::vec3> corners;
   for (int i = 0; i < count; ++i) {

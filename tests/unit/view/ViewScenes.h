@@ -14,7 +14,9 @@ using Pose = std::vector<glm::dmat4>;
 class Dice {
 public:
   explicit Dice(std::uint32_t seed) : engine_(seed) {}
-  double between(double low, double high) { return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0); }
+  double between(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
+  }
   glm::dvec3 inBox(const glm::dvec3& low, const glm::dvec3& high);
   glm::dvec3 direction(); ///< unit, even over the sphere
 
@@ -26,7 +28,8 @@ private:
 host::Scene sceneOf(const std::vector<glm::vec3>& corners);
 
 /// Triangles of about `size` scattered through a box.
-host::Scene scatteredTriangles(std::uint32_t seed, int count, const glm::dvec3& low, const glm::dvec3& high, double size);
+host::Scene scatteredTriangles(std::uint32_t seed, int count, const glm::dvec3& low, const glm::dvec3& high,
+                               double size);
 
 /// The two triangles of a parallelogram.
 std::vector<glm::vec3> quad(const glm::vec3& corner, const glm::vec3& side, const glm::vec3& otherSide);

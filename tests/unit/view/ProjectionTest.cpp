@@ -37,10 +37,11 @@ TEST_CASE("perspective projections agree with GLM") {
   const auto ours = [&](double farPlane, ClipDepth clipDepth) {
     return host::perspective(tangent * aspect, tangent, 0.25, farPlane, {false, clipDepth});
   };
-  CHECK(largestDifference(ours(80, ClipDepth::NegativeOneToOne), glm::perspectiveRH_NO(fov, aspect, 0.25, 80.0)) < 1e-13);
+  CHECK(largestDifference(ours(80, ClipDepth::NegativeOneToOne), glm::perspectiveRH_NO(fov, aspect, 0.25, 80.0)) <
+        1e-13);
   CHECK(largestDifference(ours(80, ClipDepth::ZeroToOne), glm::perspectiveRH_ZO(fov, aspect, 0.25, 80.0)) < 1e-13);
-  CHECK(largestDifference(ours(kInfinity, ClipDepth::NegativeOneToOne),
-                          glm::infinitePerspectiveRH(fov, aspect, 0.25)) < 1e-13);
+  CHECK(largestDifference(ours(kInfinity, ClipDepth::NegativeOneToOne), glm::infinitePerspectiveRH(fov, aspect, 0.25)) <
+        1e-13);
 }
 
 TEST_CASE("orthographic projections agree with GLM") {

@@ -12,7 +12,8 @@ namespace {
 constexpr double kAspect = 1.5;
 
 glm::dvec3 ndcOf(const tyndall::Camera& camera, const glm::dvec3& world) {
-  const glm::dvec4 clip = host::fromMat4(camera.clipFromView) * host::fromMat4(camera.viewFromWorld) * glm::dvec4(world, 1);
+  const glm::dvec4 clip =
+      host::fromMat4(camera.clipFromView) * host::fromMat4(camera.viewFromWorld) * glm::dvec4(world, 1);
   return glm::dvec3(clip) / clip.w;
 }
 
@@ -56,7 +57,9 @@ TEST_CASE("a perspective glTF camera keeps its vertical angle and may see withou
   const tests::Pose pose = {glm::dmat4(1), kCameraPose, glm::dmat4(1)};
   const tyndall::Camera camera = host::makeCamera(scene, pose, 0, kAspect);
   const double tangent = std::tan(0.55);
-  const auto at = [&](double x, double y, double z) { return ndcOf(camera, glm::dvec3(kCameraPose * glm::dvec4(x, y, z, 1))); };
+  const auto at = [&](double x, double y, double z) {
+    return ndcOf(camera, glm::dvec3(kCameraPose * glm::dvec4(x, y, z, 1)));
+  };
   CHECK(glm::length(at(0, 0, -0.5) - glm::dvec3(0, 0, -1)) < 1e-12);
   CHECK(glm::length(at(kAspect * tangent * 8, -tangent * 8, -8) - glm::dvec3(1, -1, at(0, 0, -8).z)) < 1e-12);
   CHECK(at(0, 0, -1e12).z == Approx(1));
@@ -72,7 +75,9 @@ TEST_CASE("a perspective glTF camera keeps its vertical angle and may see withou
 TEST_CASE("an orthographic glTF camera keeps its height") {
   const tests::Pose pose = {glm::dmat4(1), glm::dmat4(1), kCameraPose};
   const tyndall::Camera camera = host::makeCamera(sceneWithCameras(), pose, 1, kAspect);
-  const auto at = [&](double x, double y, double z) { return ndcOf(camera, glm::dvec3(kCameraPose * glm::dvec4(x, y, z, 1))); };
+  const auto at = [&](double x, double y, double z) {
+    return ndcOf(camera, glm::dvec3(kCameraPose * glm::dvec4(x, y, z, 1)));
+  };
   CHECK(glm::length(at(4 * kAspect, 4, -1) - glm::dvec3(1, 1, -1)) < 1e-12);
   CHECK(glm::length(at(-4 * kAspect, -4, -21) - glm::dvec3(-1, -1, 1)) < 1e-12);
 }

@@ -61,8 +61,9 @@ TEST_CASE("the smallest rectangle around a turned rectangle is itself") {
     const glm::dvec2 axis(std::cos(angle), std::sin(angle));
     const glm::dvec2 normal(-axis.y, axis.x);
     const glm::dvec2 centre(4, -7);
-    const host::Rectangle rectangle = host::smallestRectangle(host::convexHull(
-        {centre + 3.0 * axis + normal, centre - 3.0 * axis + normal, centre - 3.0 * axis - normal, centre + 3.0 * axis - normal}));
+    const host::Rectangle rectangle =
+        host::smallestRectangle(host::convexHull({centre + 3.0 * axis + normal, centre - 3.0 * axis + normal,
+                                                  centre - 3.0 * axis - normal, centre + 3.0 * axis - normal}));
     CHECK(areaOf(rectangle) == Approx(12));
     CHECK(glm::distance(rectangle.centre, centre) < 1e-12);
     CHECK(glm::length(rectangle.axis) == Approx(1));

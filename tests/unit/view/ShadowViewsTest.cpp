@@ -142,15 +142,17 @@ TEST_CASE("what a camera ray finds in shadow, a shadow view owns") {
     CAPTURE(round);
     const glm::dvec3 eye = dice.inBox({-35, 0, -35}, {35, 20, 35});
     const glm::dvec3 target = eye + 10.0 * dice.direction();
-    tyndall::Camera camera = host::makeLookAt(eye, target, dice.between(10, 80), 1.3, 0.1, round % 2 == 0 ? 300 : INFINITY);
+    tyndall::Camera camera =
+        host::makeLookAt(eye, target, dice.between(10, 80), 1.3, 0.1, round % 2 == 0 ? 300 : INFINITY);
     if (round % 5 == 0) camera.clipFromView = host::toMat4(host::orthographic(8, 5, round % 10 == 0 ? -3 : 1, 90, {}));
     tyndall::Light light = lightOf(LightKind::Directional, {}, dice.direction());
     host::fitShadowViews(light, scene, pose, camera);
     const tyndall::Camera all = host::makeLookAt({0, 500, 0}, {0, 0, 0}, 60, 1, 1, 2000);
     tyndall::Light whole = light;
     host::fitShadowViews(whole, scene, pose, all);
-    if (light.shadow.views.empty() || std::abs(glm::determinant(host::fromMat4(light.shadow.views[0].clipFromWorld))) >
-                                          1.5 * std::abs(glm::determinant(host::fromMat4(whole.shadow.views.at(0).clipFromWorld))))
+    if (light.shadow.views.empty() ||
+        std::abs(glm::determinant(host::fromMat4(light.shadow.views[0].clipFromWorld))) >
+            1.5 * std::abs(glm::determinant(host::fromMat4(whole.shadow.views.at(0).clipFromWorld))))
       ++narrower;
     for (const int cascades : {1, 2, 3, 4}) {
       host::fitShadowViews(light, scene, pose, camera, {false, ClipDepth::NegativeOneToOne, cascades});
@@ -208,8 +210,9 @@ TEST_CASE("each cascade holds all that stands between it and the light") {
       if (std::abs(ndc.x) <= 1 && std::abs(ndc.y) <= 1) CHECK(std::abs(ndc.z) <= 1);
     }
     const glm::dmat4 clipFromWorld = host::fromMat4(light.shadow.views[i].clipFromWorld);
-    const double texelsPerUnit = glm::length(glm::dvec3(clipFromWorld[0][0], clipFromWorld[1][0], clipFromWorld[2][0])) *
-                                 glm::length(glm::dvec3(clipFromWorld[0][1], clipFromWorld[1][1], clipFromWorld[2][1]));
+    const double texelsPerUnit =
+        glm::length(glm::dvec3(clipFromWorld[0][0], clipFromWorld[1][0], clipFromWorld[2][0])) *
+        glm::length(glm::dvec3(clipFromWorld[0][1], clipFromWorld[1][1], clipFromWorld[2][1]));
     if (i > 0) CHECK(texelsPerUnit < finer);
     finer = texelsPerUnit;
   }

@@ -36,14 +36,15 @@ TEST_CASE("world geometry holds no points and lines") {
 
 TEST_CASE("the depth range in a pyramid is that of the part inside") {
   // Across the whole view at depth 3.
-  const auto facing = host::depthRangeInPyramid(geometryOf({{-90, -90, -3}, {90, -90, -3}, {0, 90, -3}}), kIdentity, 1, 1);
+  const auto facing =
+      host::depthRangeInPyramid(geometryOf({{-90, -90, -3}, {90, -90, -3}, {0, 90, -3}}), kIdentity, 1, 1);
   REQUIRE(facing);
   CHECK(facing->nearest == Approx(3));
   CHECK(facing->farthest == Approx(3));
 
   // A floor one below the eye, from behind it to far in front: it enters a pyramid of tangent 0.5 at depth 2.
-  const auto floor = host::depthRangeInPyramid(
-      geometryOf(tests::quad({-50, -1, 40}, {100, 0, 0}, {0, 0, -80})), kIdentity, 0.5, 0.5);
+  const auto floor =
+      host::depthRangeInPyramid(geometryOf(tests::quad({-50, -1, 40}, {100, 0, 0}, {0, 0, -80})), kIdentity, 0.5, 0.5);
   REQUIRE(floor);
   CHECK(floor->nearest == Approx(2));
   CHECK(floor->farthest == Approx(40));

@@ -1,0 +1,182 @@
+#include "ImageFile.h"
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <algorithm>
+#include <cmath>
+#include <png.h>
+#include <scene/Error.h>
+#include <scene/FileIo.h>
+#include <set>
+#include <tyndall/tyndall.h>
+
+namespace host {
+
+namespace {
+
+constexpr std::uint64_t kMaxExrBytes = 4096ULL << 20; // decoded
+constexpr std::size_t kMaxChannelName = 255;          // of the EXR format
+
+std::size_t pixelCount(int width, int height) {
+  return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& rule) {
+  throw Error(printable(file.string()) + ": " + printable(rule));
+}
+
+void checkSize(const std::filesystem::path& file, int width, int height) {
+  const auto isSide = [](int side) { return side >= 1 && side <= tyndall::kMaxImageSize; };
+  if (isSide(width) && isSide(height)) return;
+  refuse(file, "the image is " + std::to_string(width) + " x " + std::to_string(height) + ", its sides must be 1 to " +
+                   std::to_string(tyndall::kMaxImageSize));
+}
+
+void checkChannels(const std::filesystem::path& file, const Image& image) {
+  if (image.channels.empty()) refuse(file, "the image has no channels");
+  std::set<std::string> names;
+  for (const Channel& channel : image.channels) {
+    if (channel.name.empty() || channel.name.size() > kMaxChannelName || !names.insert(channel.name).second) {
+      refuse(file, "channel \"" + channel.name + "\" must have a name of its own, 1 to 255 characters");
+    }
+    if (channel.values.size() != pixelCount(image.width, image.height)) {
+      refuse(file, "channel \"" + channel.name + "\" must have a value for each pixel");
+    }
+  }
+}
+
+/// A slice of a frame buffer over a channel's values, whose window begins at `origin`.
+Imf::Slice sliceOf(const float* values, const Imath::V2i& origin, int width, int height) {
+  return Imf::Slice::Make(Imf::FLOAT, values, origin, width, height, sizeof(float), sizeof(float) * width);
+}
+
+/// The ACES film curve as fitted by K. Narkowicz (2016), 0 at 0 and cut off at 1.
+float filmic(float x) { return std::min(x * (2.51F * x + 0.03F) / (x * (2.43F * x + 0.59F) + 0.14F), 1.0F); }
+
+/// IEC 61966-2-1.
+std::uint8_t toSrgb8(float linear) {
+  const float encoded = linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1 / 2.4F) - 0.055F;
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(encoded, 0.0F, 1.0F)));
+}
+
+/// The largest channel takes the film curve and the others keep their ratio to it, so that hues hold. What the curve
+/// took off the peak then fades the colour to white, as in Khronos' PBR Neutral tone mapper.
+void toneMapPixel(const float* rgb, float exposure, std::uint8_t* bytes) {
+  constexpr float kBrightest = 1e6F; // keeps infinities out of the ratios
+  constexpr float kDesaturation = 0.15F;
+  float scaled[3];
+  for (int c = 0; c < 3; ++c) {
+    const float value = rgb[c] * exposure;
+    if (std::isnan(value)) {
+      bytes[0] = bytes[2] = 255;
+      bytes[1] = 0;
+      return;
+    }
+    scaled[c] = std::clamp(value, 0.0F, kBrightest);
+  }
+  const float peak = std::max({scaled[0], scaled[1], scaled[2]});
+  const float mapped = filmic(peak);
+  const float white = 1 - 1 / (kDesaturation * std::max(peak - mapped, 0.0F) + 1);
+  for (int c = 0; c < 3; ++c) {
+    const float colour = peak > 0 ? scaled[c] / peak * mapped : 0;
+    bytes[c] = toSrgb8(colour + (mapped - colour) * white);
+  }
+}
+
+} // namespace
+
+const std::vector<float>* Image::find(const std::string& name) const {
+  for (const Channel& channel : channels) {
+    if (channel.name == name) return &channel.values;
+  }
+  return nullptr;
+}
+
+void Image::addChannel(const std::string& name, const float* pixels, int stride, int offset, bool bottomUp) {
+  Channel channel{name, std::vector<float>(pixelCount(width, height))};
+  for (int y = 0; y < height; ++y) {
+    const int row = bottomUp ? height - 1 - y : y;
+    const float* source = pixels + pixelCount(row, width) * static_cast<std::size_t>(stride) + offset;
+    float* target = channel.values.data() + pixelCount(y, width);
+    for (int x = 0; x < width; ++x) {
+      target[x] = source[static_cast<std::ptrdiff_t>(x) * stride];
+    }
+  }
+  channels.push_back(std::move(channel));
+}
+
+void writeExr(const std::filesystem::path& file, const Image& image) {
+  checkSize(file, image.width, image.height);
+  checkChannels(file, image);
+  Imf::Header header(image.width, image.height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  Imf::FrameBuffer frameBuffer;
+  for (const Channel& channel : image.channels) {
+    header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
+    frameBuffer.insert(channel.name, sliceOf(channel.values.data(), {0, 0}, image.width, image.height));
+  }
+  writeAndRename(file, [&](const std::filesystem::path& temporary) {
+    Imf::OutputFile output(temporary.c_str(), header);
+    output.setFrameBuffer(frameBuffer);
+    output.writePixels(image.height);
+  });
+}
+
+Image readExr(const std::filesystem::path& file) {
+  Image image;
+  try {
+    Imf::InputFile input(file.c_str());
+    const Imath::Box2i window = input.header().dataWindow();
+    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+    const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+    if (width > tyndall::kMaxImageSize || height > tyndall::kMaxImageSize) throw Error("too large");
+    image.width = static_cast<int>(width);
+    image.height = static_cast<int>(height);
+    checkSize(file, image.width, image.height);
+    const Imf::ChannelList& channels = input.header().channels();
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+      if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1) {
+        throw Error(std::string("channel ") + channel.name() + " is subsampled");
+      }
+      if ((image.channels.size() + 1) * pixelCount(image.width, image.height) * sizeof(float) > kMaxExrBytes) {
+        throw Error("its channels take more than " + std::to_string(kMaxExrBytes >> 20) + " MiB");
+      }
+      image.channels.push_back({channel.name(), std::vector<float>(pixelCount(image.width, image.height))});
+    }
+    Imf::FrameBuffer frameBuffer;
+    for (Channel& channel : image.channels) {
+      frameBuffer.insert(channel.name, sliceOf(channel.values.data(), window.min, image.width, image.height));
+    }
+    input.setFrameBuffer(frameBuffer);
+    input.readPixels(window.min.y, window.max.y);
+  } catch (const std::exception& error) {
+    refuse(file, std::string("cannot be read as an EXR: ") + error.what());
+  }
+  return image;
+}
+
+void writePng(const std::filesystem::path& file, int width, int height, const std::vector<std::uint8_t>& rgb8) {
+  checkSize(file, width, height);
+  if (rgb8.size() != 3 * pixelCount(width, height)) refuse(file, "the image must have three bytes for each pixel");
+  writeAndRename(file, [&](const std::filesystem::path& temporary) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(width);
+    image.height = static_cast<png_uint_32>(height);
+    image.format = PNG_FORMAT_RGB;
+    if (png_image_write_to_file(&image, temporary.c_str(), 0, rgb8.data(), 0, nullptr) == 0) throw Error(image.message);
+  });
+}
+
+std::vector<std::uint8_t> toneMap(const float* rgb, int width, int height, float exposure) {
+  std::vector<std::uint8_t> bytes(3 * pixelCount(width, height));
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    toneMapPixel(rgb + i, exposure, &bytes[i]);
+  }
+  return bytes;
+}
+
+} // namespace host

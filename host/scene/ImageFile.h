@@ -1,0 +1,42 @@
+// EXR and PNG files. Row 0 of every image here is the top row, as in the files; GL's row 0 is the bottom row, so what
+// glReadPixels returns has to be flipped. Files are written beside their name and renamed: never half a file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace host {
+
+struct Channel {
+  std::string name;          ///< as in the EXR: R, inscatter.G, Z, ...
+  std::vector<float> values; ///< width * height, row 0 on top
+};
+
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<Channel> channels;
+
+  const std::vector<float>* find(const std::string& name) const; ///< null if there is no such channel
+
+  /// Adds every `stride`-th float of interleaved pixels, from `offset` on, as a channel.
+  /// bottomUp: the first row of `pixels` is the bottom one, as glReadPixels gives it.
+  void addChannel(const std::string& name, const float* pixels, int stride, int offset, bool bottomUp);
+};
+
+/// 32-bit float, ZIP-compressed scanlines. Throws Error if the image is malformed or cannot be written.
+void writeExr(const std::filesystem::path& file, const Image& image);
+
+/// All channels as 32-bit float, in the file's (alphabetical) order. Throws Error.
+Image readExr(const std::filesystem::path& file);
+
+/// 8-bit sRGB, three bytes a pixel, row 0 on top. Throws Error.
+void writePng(const std::filesystem::path& file, int width, int height, const std::vector<std::uint8_t>& rgb8);
+
+/// Linear radiance, three floats a pixel, to sRGB bytes in the same order: exposure, a filmic curve, the sRGB transfer
+/// function. Hues hold while highlights fade to white. A pixel with a NaN becomes magenta.
+std::vector<std::uint8_t> toneMap(const float* rgb, int width, int height, float exposure = 1);
+
+} // namespace host

@@ -1,0 +1,33 @@
+// Fits a light's shadow views to the scene.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <scene/Projection.h>
+#include <scene/Scene.h>
+#include <string>
+#include <tyndall/tyndall.h>
+#include <vector>
+
+namespace host {
+
+struct ShadowOptions {
+  bool reversedDepth = false;
+  tyndall::ClipDepth clipDepth = tyndall::ClipDepth::NegativeOneToOne;
+  int cascades = 1; ///< 1 to 4, of a directional light
+};
+
+/// Fills light.shadow.views (matrices; layers 0, 1, ...) and light.shadow.clipDepth, and nothing else of the light.
+///
+/// Directional: a box along the light that holds all casters, glass too, turned about the light's direction for the
+/// smallest area. Sideways it is cut to what a camera ray can reach of the casters' shadows, so every point of a camera
+/// ray outside it is lit. Cascades divide the view depth up to the scene's end; each takes in all casters towards the
+/// light. Spot: one pyramid around the cone. Point: six pyramids of 90 degrees. Their depth range is that of the
+/// casters inside.
+///
+/// Where nothing can block the light there are no views: then the light needs no shadow map.
+/// Returns what could not be fitted, a line each.
+std::vector<std::string> fitShadowViews(tyndall::Light& light, const Scene& scene,
+                                        const std::vector<glm::dmat4>& worldFromNode, const tyndall::Camera& camera,
+                                        const ShadowOptions& options = {});
+
+} // namespace host

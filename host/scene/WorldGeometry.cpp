@@ -1,0 +1,101 @@
+#include <scene/WorldGeometry.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace host {
+
+namespace {
+
+constexpr std::uint32_t kUnseen = std::numeric_limits<std::uint32_t>::max();
+
+void append(WorldGeometry& geometry, const Primitive& primitive, const glm::dmat4& worldFromNode) {
+  std::vector<std::uint32_t> place(primitive.vertices.size(), kUnseen);
+  for (const std::uint32_t index : primitive.indices) {
+    if (place[index] == kUnseen) {
+      place[index] = static_cast<std::uint32_t>(geometry.points.size());
+      geometry.points.emplace_back(worldFromNode * glm::dvec4(primitive.vertices[index].position, 1));
+    }
+    geometry.triangles.push_back(place[index]);
+  }
+}
+
+/// A triangle cut by four planes has at most seven corners.
+struct Corners {
+  std::array<glm::dvec3, 8> at;
+  int count = 0;
+  void add(const glm::dvec3& corner) { at[count++] = corner; }
+};
+
+/// The part of a convex polygon with dot(normal, x) >= 0.
+Corners cut(const Corners& polygon, const glm::dvec3& normal) {
+  Corners inside;
+  for (int i = 0; i < polygon.count; ++i) {
+    const glm::dvec3 a = polygon.at[i];
+    const glm::dvec3 b = polygon.at[(i + 1) % polygon.count];
+    const double da = glm::dot(normal, a);
+    const double db = glm::dot(normal, b);
+    if (da >= 0) inside.add(a);
+    if ((da >= 0) != (db >= 0)) inside.add(a + (b - a) * (da / (da - db)));
+  }
+  return inside;
+}
+
+} // namespace
+
+WorldGeometry worldGeometry(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode) {
+  WorldGeometry geometry;
+  for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
+    if (scene.nodes[node].mesh < 0) continue;
+    for (const Primitive& primitive : scene.meshes[scene.nodes[node].mesh].primitives)
+      if (primitive.topology == Topology::Triangles) append(geometry, primitive, worldFromNode[node]);
+  }
+  return geometry;
+}
+
+std::optional<DepthRange> depthRangeInPyramid(const WorldGeometry& geometry, const glm::dmat4& viewFromWorld,
+                                              double tanHalfWidth, double tanHalfHeight) {
+  const std::array<glm::dvec3, 4> sides = {glm::dvec3(1, 0, -tanHalfWidth), glm::dvec3(-1, 0, -tanHalfWidth),
+                                           glm::dvec3(0, 1, -tanHalfHeight), glm::dvec3(0, -1, -tanHalfHeight)};
+  std::vector<glm::dvec3> viewPoints;
+  viewPoints.reserve(geometry.points.size());
+  for (const glm::dvec3& point : geometry.points)
+    viewPoints.emplace_back(viewFromWorld * glm::dvec4(point, 1));
+
+  DepthRange range{std::numeric_limits<double>::infinity(), -1};
+  for (std::size_t i = 0; i + 2 < geometry.triangles.size(); i += 3) {
+    Corners corners;
+    for (std::size_t k = 0; k < 3; ++k)
+      corners.add(viewPoints[geometry.triangles[i + k]]);
+    for (const glm::dvec3& side : sides)
+      corners = cut(corners, side);
+    for (int k = 0; k < corners.count; ++k) {
+      range.nearest = std::min(range.nearest, -corners.at[k].z);
+      range.farthest = std::max(range.farthest, -corners.at[k].z);
+    }
+  }
+  if (range.farthest < range.nearest) return std::nullopt;
+  return range;
+}
+
+// Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
+std::optional<RayHit> firstHit(const WorldGeometry& geometry, const glm::dvec3& origin, const glm::dvec3& direction) {
+  std::optional<RayHit> hit;
+  for (std::size_t i = 0; i < geometry.triangleCount(); ++i) {
+    const auto [a, b, c] = geometry.triangle(i);
+    const glm::dvec3 p = glm::cross(direction, c - a);
+    const double determinant = glm::dot(b - a, p);
+    if (determinant == 0) continue;
+    const glm::dvec3 s = origin - a;
+    const double u = glm::dot(s, p) / determinant;
+    const glm::dvec3 q = glm::cross(s, b - a);
+    const double v = glm::dot(direction, q) / determinant;
+    const double distance = glm::dot(c - a, q) / determinant;
+    if (u >= 0 && v >= 0 && u + v <= 1 && distance > 0 && (!hit || distance < hit->distance))
+      hit = RayHit{distance, determinant > 0};
+  }
+  return hit;
+}
+
+} // namespace host

@@ -1,0 +1,44 @@
+// The geometry of a posed scene in world space, for fitting views and shadow maps to it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <scene/Scene.h>
+#include <vector>
+
+namespace host {
+
+/// Every point that a triangle refers to, and the triangles as indices into the points, three each.
+struct WorldGeometry {
+  std::vector<glm::dvec3> points;
+  std::vector<std::uint32_t> triangles;
+
+  std::array<glm::dvec3, 3> triangle(std::size_t i) const {
+    return {points[triangles[3 * i]], points[triangles[3 * i + 1]], points[triangles[3 * i + 2]]};
+  }
+  std::size_t triangleCount() const { return triangles.size() / 3; }
+};
+
+WorldGeometry worldGeometry(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode);
+
+/// Nearest and farthest distance along -z.
+struct DepthRange {
+  double nearest = 0;
+  double farthest = 0;
+};
+
+/// The exact view depths of the geometry inside the pyramid |x| <= -z tanHalfWidth, |y| <= -z tanHalfHeight; empty if
+/// nothing is inside.
+std::optional<DepthRange> depthRangeInPyramid(const WorldGeometry& geometry, const glm::dmat4& viewFromWorld,
+                                              double tanHalfWidth, double tanHalfHeight);
+
+/// The first triangle that a ray meets.
+struct RayHit {
+  double distance = 0; ///< in lengths of the direction
+  bool front = true;   ///< the side from which its corners run counter-clockwise
+};
+std::optional<RayHit> firstHit(const WorldGeometry& geometry, const glm::dvec3& origin, const glm::dvec3& direction);
+
+} // namespace host

@@ -1,0 +1,257 @@
+#include "Options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <scene/Error.h>
+#include <system_error>
+
+namespace render {
+
+namespace {
+
+constexpr int kMaxFrame = 999999;
+constexpr int kMaxRepeat = 10000;
+constexpr const char* kFramePlace = "%04d";
+
+constexpr const char* kFooter = R"(
+Files
+  EXR: 32-bit float; R G B (composite), inscatter.{R,G,B}, transmittance.{R,G,B}, Z (distance along the view
+  axis in world units; 1e30 where there is only sky). PNG: the tone-mapped composite.
+  Files are written beside their name and renamed when complete.
+Exit status
+  0: done; 1: failed, with one line that names file and cause; 2: wrong usage.)";
+
+/// The options as typed. Numbers are parsed here and not by CLI11, so that nothing but a whole number passes for one.
+struct Typed {
+  std::string scene, camera, eye, target, fov, sun, size, profile, technique, filter, medium, shadowSize, cascades,
+      frames, repeat, context, stats, exposure;
+  std::vector<std::string> out;
+  bool reversedDepth = false;
+};
+
+[[noreturn]] void fail(const std::string& option, const std::string& value, const std::string& rule) {
+  throw UsageError(fmt::format("{} {}: {}", option, value, rule));
+}
+
+template <typename Number>
+std::optional<Number> parseWhole(const std::string& text) {
+  Number number{};
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || rest != end) return std::nullopt;
+  return number;
+}
+
+int parseInt(const std::string& option, const std::string& value, int low, int high) {
+  const auto number = parseWhole<int>(value);
+  if (!number || *number < low || *number > high)
+    fail(option, value, fmt::format("must be a whole number from {} to {}", low, high));
+  return *number;
+}
+
+double parseFinite(const std::string& option, const std::string& value, const std::string& part) {
+  const auto number = parseWhole<double>(part);
+  if (!number || !std::isfinite(*number)) fail(option, value, fmt::format("\"{}\" is not a finite number", part));
+  return *number;
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : text)
+    if (c == separator)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
+
+std::vector<double> parseNumbers(const std::string& option, const std::string& value) {
+  std::vector<double> numbers;
+  for (const std::string& part : split(value, ','))
+    numbers.push_back(parseFinite(option, value, part));
+  return numbers;
+}
+
+glm::dvec3 parsePoint(const std::string& option, const std::string& value) {
+  const std::vector<double> numbers = parseNumbers(option, value);
+  if (numbers.size() != 3) fail(option, value, "must be three numbers X,Y,Z");
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+Sun parseSun(const std::string& value) {
+  const std::vector<double> n = parseNumbers("--sun", value);
+  if (n.size() != 3 && n.size() != 6) fail("--sun", value, "must be DX,DY,DZ or DX,DY,DZ,R,G,B");
+  Sun sun;
+  sun.direction = {n[0], n[1], n[2]};
+  const double length = glm::length(sun.direction);
+  if (!(length > 0) || !std::isfinite(length)) fail("--sun", value, "its direction must have a length");
+  if (n.size() == 6) {
+    if (n[3] < 0 || n[4] < 0 || n[5] < 0) fail("--sun", value, "its colour must not be negative");
+    sun.colour = glm::vec3(n[3], n[4], n[5]);
+  }
+  return sun;
+}
+
+void readSize(const std::string& value, Options& options) {
+  const std::string rule = fmt::format("must be WIDTHxHEIGHT, each from 1 to {}", tyndall::kMaxImageSize);
+  const std::vector<std::string> parts = split(value, 'x');
+  if (parts.size() != 2) fail("--size", value, rule);
+  const auto width = parseWhole<int>(parts[0]);
+  const auto height = parseWhole<int>(parts[1]);
+  if (!width || !height || std::min(*width, *height) < 1 || std::max(*width, *height) > tyndall::kMaxImageSize)
+    fail("--size", value, rule);
+  options.width = *width;
+  options.height = *height;
+}
+
+FrameRange parseFrames(const std::string& value) {
+  const std::vector<std::string> parts = split(value, '-');
+  const std::string rule = fmt::format("must be FIRST-LAST, 0 <= FIRST <= LAST <= {}", kMaxFrame);
+  if (parts.size() != 2) fail("--frames", value, rule);
+  const auto first = parseWhole<int>(parts[0]);
+  const auto last = parseWhole<int>(parts[1]);
+  if (!first || !last || *first < 0 || *last < *first || *last > kMaxFrame) fail("--frames", value, rule);
+  return {*first, *last};
+}
+
+void readView(const Typed& typed, Options& options) {
+  if (!typed.camera.empty()) {
+    if (!typed.eye.empty()) fail("--camera", typed.camera, "cannot go with --eye");
+    options.camera = parseInt("--camera", typed.camera, 0, kMaxFrame);
+  }
+  if (typed.eye.empty() != typed.target.empty())
+    fail(typed.eye.empty() ? "--target" : "--eye", typed.eye.empty() ? typed.target : typed.eye,
+         "--eye and --target go together");
+  if (typed.eye.empty()) {
+    if (!typed.fov.empty()) fail("--fov", typed.fov, "needs --eye and --target");
+    return;
+  }
+  LookAt lookAt;
+  lookAt.eye = parsePoint("--eye", typed.eye);
+  lookAt.target = parsePoint("--target", typed.target);
+  if (lookAt.eye == lookAt.target) fail("--target", typed.target, "must differ from --eye");
+  if (!typed.fov.empty()) {
+    lookAt.fovDegrees = parseFinite("--fov", typed.fov, typed.fov);
+    if (lookAt.fovDegrees <= 0 || lookAt.fovDegrees >= 180)
+      fail("--fov", typed.fov, "must be between 0 and 180 degrees");
+  }
+  options.lookAt = lookAt;
+}
+
+void readQuality(const Typed& typed, Options& options) {
+  if (typed.profile != options.profile) fail("--profile", typed.profile, "must be reference");
+  if (typed.technique != options.technique) fail("--technique", typed.technique, "must be exact");
+  if (typed.filter == "bilinear")
+    options.shadowFilter = tyndall::ShadowFilter::Bilinear;
+  else if (typed.filter != "nearest")
+    fail("--filter", typed.filter, "must be nearest or bilinear");
+  options.shadowSize = parseInt("--shadow-size", typed.shadowSize, 1, tyndall::kMaxImageSize);
+  options.cascades = parseInt("--cascades", typed.cascades, 1, 4);
+  options.reversedDepth = typed.reversedDepth;
+  if (!typed.repeat.empty()) options.repeat = parseInt("--repeat", typed.repeat, 1, kMaxRepeat);
+}
+
+void readOutputs(const Typed& typed, Options& options) {
+  if (typed.out.size() > 2) fail("--out", typed.out.back(), "may be given twice at most");
+  for (const std::string& name : typed.out) {
+    std::string extension = std::filesystem::path(name).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
+    if (extension != ".exr" && extension != ".png") fail("--out", name, "must end in .exr or .png");
+    const bool holdsPlace = name.find(kFramePlace) != std::string::npos;
+    if (holdsPlace != options.frames.has_value())
+      fail("--out", name, holdsPlace ? "holds %04d, which needs --frames" : "must hold %04d when --frames is given");
+    options.out.emplace_back(name);
+  }
+  if (!typed.stats.empty()) options.stats = typed.stats;
+  if (options.out.size() == 2 && options.out[0] == options.out[1]) fail("--out", typed.out[0], "is given twice");
+  if (options.stats && std::find(options.out.begin(), options.out.end(), *options.stats) != options.out.end())
+    fail("--stats", typed.stats, "is the name of an --out, too");
+}
+
+void addOptions(CLI::App& app, Typed& typed) {
+  app.add_option("SCENE", typed.scene, "a glTF 2.0 file, .glb or .gltf")->required();
+  app.add_option("--camera", typed.camera, "the N-th camera of the scene, from 0 (default 0)")->type_name("N");
+  app.add_option("--eye", typed.eye, "look from here instead")->type_name("X,Y,Z");
+  app.add_option("--target", typed.target, "at this point, y up")->type_name("X,Y,Z");
+  app.add_option("--fov", typed.fov, "vertical angle of that view (default 50)")->type_name("DEGREES");
+  app.add_option("--sun", typed.sun, "a sun instead of the scene's lights: where its light travels to, and irradiance")
+      ->type_name("DX,DY,DZ[,R,G,B]");
+  app.add_option("--size", typed.size, "pixels (default 1280x720)")->type_name("WxH");
+  app.add_option("--profile", typed.profile, "quality: reference (default)")->type_name("NAME");
+  app.add_option("--technique", typed.technique, "exact (default)")->type_name("NAME");
+  app.add_option("--filter", typed.filter, "of the shadow map: nearest (default) or bilinear")->type_name("NAME");
+  app.add_option("--medium", typed.medium, "the medium, instead of the scene's")->type_name("M.json");
+  app.add_option("--shadow-size", typed.shadowSize, "texels per side of a shadow map (default 4096)")->type_name("N");
+  app.add_option("--cascades", typed.cascades, "shadow maps of a directional light, 1 to 4 (default 1)")
+      ->type_name("N");
+  app.add_flag("--reversed-depth", typed.reversedDepth, "camera and shadow depth fall from 1 to 0");
+  app.add_option("--frames", typed.frames, "frames of the animation, at 24 a second")->type_name("A-B");
+  app.add_option("--repeat", typed.repeat, "after a warm-up, time N renders of each frame")->type_name("N");
+  app.add_option("--context", typed.context, "osmesa (default), egl or glfw")->type_name("NAME");
+  app.add_option("--out", typed.out, "a picture, .exr or .png; may be given twice; %04d is the frame")
+      ->type_name("IMAGE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--stats", typed.stats, "timings and counts as JSON")->type_name("S.json");
+  app.add_option("--exposure", typed.exposure, "of the PNG, in stops (default: by the first picture's brightness)")
+      ->type_name("STOPS");
+}
+
+Options fromTyped(const Typed& typed) {
+  Options options;
+  options.scene = typed.scene;
+  readView(typed, options);
+  if (!typed.sun.empty()) options.sun = parseSun(typed.sun);
+  readSize(typed.size, options);
+  readQuality(typed, options);
+  if (!typed.medium.empty()) options.medium = typed.medium;
+  if (!typed.frames.empty()) options.frames = parseFrames(typed.frames);
+  try {
+    options.context = host::parseContextKind(typed.context);
+  } catch (const host::Error&) {
+    fail("--context", typed.context, "must be osmesa, egl or glfw");
+  }
+  readOutputs(typed, options);
+  if (!typed.exposure.empty()) {
+    options.exposureStops = parseFinite("--exposure", typed.exposure, typed.exposure);
+    if (std::abs(*options.exposureStops) > 100) fail("--exposure", typed.exposure, "must be from -100 to 100 stops");
+  }
+  return options;
+}
+
+} // namespace
+
+Options parseOptions(int argc, const char* const* argv) {
+  Typed typed;
+  typed.size = "1280x720";
+  typed.profile = "reference";
+  typed.technique = "exact";
+  typed.filter = "nearest";
+  typed.shadowSize = "4096";
+  typed.cascades = "1";
+  typed.context = "osmesa";
+  CLI::App app("Renders a glTF scene with Tyndall's volumetric shadows.", "tyndall-render");
+  app.footer(kFooter);
+  app.set_version_flag("--version", "tyndall-render " TYNDALL_VERSION);
+  addOptions(app, typed);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    throw Answer{app.help()};
+  } catch (const CLI::CallForVersion& version) {
+    throw Answer{std::string(version.what()) + "\n"};
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what());
+  }
+  // An option given as "" must not pass for one left out.
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& value : option->results())
+      if (value.empty()) fail(option->get_name(), "\"\"", "must not be empty");
+  return fromTyped(typed);
+}
+
+} // namespace render

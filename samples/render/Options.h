@@ -1,0 +1,68 @@
+// The command line of tyndall-render.
+#pragma once
+
+#include <filesystem>
+#include <gl/Context.h>
+#include <glm/glm.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <tyndall/tyndall.h>
+#include <vector>
+
+namespace render {
+
+struct LookAt {
+  glm::dvec3 eye{0};
+  glm::dvec3 target{0};
+  double fovDegrees = 50; ///< vertical
+};
+
+struct Sun {
+  glm::dvec3 direction{0};         ///< where the light travels to
+  std::optional<glm::vec3> colour; ///< irradiance; the host's sun colour if not given
+};
+
+struct FrameRange {
+  int first = 0;
+  int last = 0;
+  int count() const { return last - first + 1; }
+};
+
+struct Options {
+  std::filesystem::path scene;
+  std::optional<int> camera;
+  std::optional<LookAt> lookAt;
+  std::optional<Sun> sun;
+  int width = 1280;
+  int height = 720;
+  std::string profile = "reference";
+  std::string technique = "exact";
+  tyndall::ShadowFilter shadowFilter = tyndall::ShadowFilter::Nearest;
+  std::optional<std::filesystem::path> medium;
+  int shadowSize = 4096;
+  int cascades = 1;
+  bool reversedDepth = false;       ///< of camera and shadow maps, with clip depth from 0 to 1
+  std::optional<FrameRange> frames; ///< none: frame 0, and one object in the statistics instead of a list
+  std::optional<int> repeat;        ///< none: render once, without a warm-up
+  host::ContextKind context = host::ContextKind::Osmesa;
+  std::vector<std::filesystem::path> out;
+  std::optional<std::filesystem::path> stats;
+  std::optional<double> exposureStops; ///< none: by the picture's brightness
+};
+
+/// The command line breaks a rule: one line that names option, value and rule.
+class UsageError : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// --help or --version was asked for: the text to print.
+struct Answer {
+  std::string text;
+};
+
+/// Throws UsageError or Answer.
+Options parseOptions(int argc, const char* const* argv);
+
+} // namespace render

@@ -1,0 +1,147 @@
+#include "Outputs.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <fmt/format.h>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <scene/Error.h>
+#include <scene/FileIo.h>
+#include <scene/ImageFile.h>
+
+namespace render {
+
+namespace {
+
+/// The composite as RGB, row 0 on top.
+std::vector<float> topDownRgb(const std::vector<float>& bottomUpRgba, int width, int height) {
+  std::vector<float> rgb;
+  rgb.reserve(bottomUpRgba.size() / 4 * 3);
+  for (int row = height - 1; row >= 0; --row)
+    for (int column = 0; column < width; ++column) {
+      const float* pixel = bottomUpRgba.data() + 4 * (static_cast<std::size_t>(row) * width + column);
+      rgb.insert(rgb.end(), pixel, pixel + 3);
+    }
+  return rgb;
+}
+
+host::Image imageOf(const Picture& picture, int width, int height) {
+  host::Image image;
+  image.width = width;
+  image.height = height;
+  const char* const letters[] = {"R", "G", "B"};
+  for (int channel = 0; channel < 3; ++channel) {
+    const std::string letter = letters[channel];
+    image.addChannel(letter, picture.composite.data(), 4, channel, true);
+    image.addChannel("inscatter." + letter, picture.inscatter.data(), 4, channel, true);
+    image.addChannel("transmittance." + letter, picture.transmittance.data(), 4, channel, true);
+  }
+  image.addChannel("Z", picture.z.data(), 1, 0, true);
+  return image;
+}
+
+nlohmann::ordered_json passesOf(const tyndall::Statistics& statistics) {
+  nlohmann::ordered_json passes = nlohmann::ordered_json::array();
+  for (const tyndall::PassStatistics& pass : statistics.passes)
+    if (pass.skipped.empty())
+      passes.push_back({{"name", pass.name}, {"ms", pass.milliseconds}});
+    else
+      passes.push_back({{"name", pass.name}, {"skipped", pass.skipped}});
+  return passes;
+}
+
+/// The exact technique marches every pixel's ray once for each light, in a pass named "exact light N".
+std::int64_t marchedSamples(const tyndall::Statistics& statistics, const Options& options) {
+  const auto marches =
+      std::count_if(statistics.passes.begin(), statistics.passes.end(), [](const tyndall::PassStatistics& pass) {
+        return pass.skipped.empty() && pass.name.rfind("exact light", 0) == 0;
+      });
+  return static_cast<std::int64_t>(marches) * options.width * options.height;
+}
+
+nlohmann::ordered_json statisticsOf(const FrameStatistics& frame, const Options& options, const std::string& driver) {
+  const Measurement& measurement = frame.measurement;
+  return {{"driver", driver},
+          {"context", host::nameOf(options.context)},
+          {"size", {options.width, options.height}},
+          {"technique", options.technique},
+          {"profile", options.profile},
+          {"effect_ms",
+           {{"median", measurement.median()},
+            {"min", measurement.milliseconds.front()},
+            {"max", measurement.milliseconds.back()}}},
+          {"bytes", measurement.statistics.bytes},
+          {"passes", passesOf(measurement.statistics)},
+          {"marched_samples", marchedSamples(measurement.statistics, options)},
+          {"fixup_pixels", 0}};
+}
+
+} // namespace
+
+std::filesystem::path nameOfFrame(const std::filesystem::path& pattern, int frame) {
+  std::string name = pattern.string();
+  const std::string place = "%04d";
+  for (std::size_t at = name.find(place); at != std::string::npos; at = name.find(place))
+    name.replace(at, place.size(), fmt::format("{:04d}", frame));
+  return name;
+}
+
+void requireWritable(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file)) throw host::Error(host::printable(file.string()) + ": is a folder");
+  std::filesystem::path probe = file;
+  probe += ".probe";
+  const bool writable = std::ofstream(probe, std::ios::app).good();
+  std::error_code ignored;
+  std::filesystem::remove(probe, ignored);
+  if (!writable)
+    throw host::Error(host::printable(file.string()) + ": cannot be written: the folder is missing or locked");
+}
+
+float exposureOf(const Picture& picture) {
+  constexpr double kMiddleGrey = 0.18;
+  constexpr double kHighlight = 1.5; // the film curve still has some contrast left there
+  std::vector<double> luminances;
+  double sum = 0;
+  for (std::size_t i = 0; i + 3 < picture.composite.size(); i += 4) {
+    const float* c = picture.composite.data() + i;
+    const double luminance = 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+    if (!(luminance > 0) || !std::isfinite(luminance)) continue;
+    luminances.push_back(luminance);
+    sum += std::log(luminance);
+  }
+  if (luminances.empty()) return 1;
+  const auto bright = luminances.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(luminances.size()));
+  std::nth_element(luminances.begin(), bright, luminances.end());
+  const double mean = std::exp(sum / static_cast<double>(luminances.size()));
+  return static_cast<float>(std::clamp(std::min(kMiddleGrey / mean, kHighlight / *bright), 1e-30, 1e30));
+}
+
+void writePicture(const std::filesystem::path& file, const Picture& picture, const Options& options, float exposure) {
+  if (std::tolower(static_cast<unsigned char>(file.extension().string().at(1))) == 'e') {
+    host::writeExr(file, imageOf(picture, options.width, options.height));
+    return;
+  }
+  const std::vector<float> rgb = topDownRgb(picture.composite, options.width, options.height);
+  host::writePng(file, options.width, options.height,
+                 host::toneMap(rgb.data(), options.width, options.height, exposure));
+}
+
+void writeStatistics(const std::filesystem::path& file, const Options& options, const std::string& driver,
+                     const std::vector<FrameStatistics>& frames) {
+  nlohmann::ordered_json json;
+  if (options.frames)
+    for (const FrameStatistics& frame : frames)
+      json["frames"].push_back(statisticsOf(frame, options, driver));
+  else
+    json = statisticsOf(frames.front(), options, driver);
+  host::writeAndRename(file, [&json](const std::filesystem::path& temporary) {
+    std::ofstream stream(temporary);
+    // A driver's name may hold any bytes: those that are not UTF-8 are replaced instead of thrown over.
+    stream << json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+    if (!stream.flush()) throw host::Error("cannot be written");
+  });
+}
+
+} // namespace render

@@ -1,0 +1,34 @@
+// Pictures and statistics as files.
+#pragma once
+
+#include "Options.h"
+#include "RenderFrame.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace render {
+
+/// The name of a frame's picture: %04d becomes the number.
+std::filesystem::path nameOfFrame(const std::filesystem::path& pattern, int frame);
+
+/// Throws host::Error, which names the file, if it could not be written now. Leaves nothing behind.
+void requireWritable(const std::filesystem::path& file);
+
+/// What brings the picture's geometric mean radiance, black left out, to middle grey, or less if the brightest fiftieth
+/// would lose its contrast.
+float exposureOf(const Picture& picture);
+
+/// Writes an EXR or a PNG, by the extension. Throws host::Error.
+void writePicture(const std::filesystem::path& file, const Picture& picture, const Options& options, float exposure);
+
+struct FrameStatistics {
+  int frame = 0;
+  Measurement measurement;
+};
+
+/// One object, or with --frames an object a frame in a list under "frames". Throws host::Error.
+void writeStatistics(const std::filesystem::path& file, const Options& options, const std::string& driver,
+                     const std::vector<FrameStatistics>& frames);
+
+} // namespace render

@@ -1,0 +1,182 @@
+#include "RenderFrame.h"
+
+#include <algorithm>
+#include <chrono>
+#include <gl/Gl.h>
+#include <gl/ReadBack.h>
+#include <scene/Error.h>
+#include <scene/GltfLoader.h>
+#include <scene/MediumFile.h>
+#include <scene/Projection.h>
+#include <scene/ShadowViews.h>
+
+namespace render {
+
+namespace {
+
+constexpr double kFramesPerSecond = 24;
+
+/// Timer queries of a software rasteriser measure when commands were queued, not when they ran.
+tyndall::PassTiming timingFor(const std::string& driver) {
+  for (const char* software : {"llvmpipe", "softpipe", "swrast", "SWR"})
+    if (driver.find(software) != std::string::npos) return tyndall::PassTiming::Finish;
+  return tyndall::PassTiming::TimerQuery;
+}
+
+host::RenderTargetOptions targetOptions(const Options& options) {
+  host::RenderTargetOptions target;
+  target.width = options.width;
+  target.height = options.height;
+  target.colourFormat = GL_RGBA32F;
+  return target;
+}
+
+tyndall::ClipDepth clipDepthOf(const Options& options) {
+  return options.reversedDepth ? tyndall::ClipDepth::ZeroToOne : tyndall::ClipDepth::NegativeOneToOne;
+}
+
+/// Distances along the view axis. The scene's depth runs over (0, 1) whatever its direction.
+std::vector<float> viewZ(std::vector<float> depth, const tyndall::Camera& camera, bool reversed) {
+  const glm::dmat4 viewFromClip = glm::inverse(host::fromMat4(camera.clipFromView));
+  const float sky = reversed ? 0.0F : 1.0F;
+  const bool isZeroToOne = camera.clipDepth == tyndall::ClipDepth::ZeroToOne;
+  for (float& value : depth) {
+    const double ndc = isZeroToOne ? value : 2.0 * value - 1.0;
+    const glm::dvec4 view = viewFromClip * glm::dvec4(0, 0, ndc, 1);
+    value = value == sky ? kSkyZ : static_cast<float>(-view.z / view.w);
+  }
+  return depth;
+}
+
+void addOnce(host::Notes& notes, const host::Notes& more) {
+  for (const std::string& note : more)
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+}
+
+} // namespace
+
+double Measurement::median() const {
+  const std::size_t count = milliseconds.size();
+  return 0.5 * (milliseconds[(count - 1) / 2] + milliseconds[count / 2]);
+}
+
+FrameRenderer::FrameRenderer(const Options& options)
+    : options_(options), context_(host::Context::create(options.context)), scene_(host::loadScene(options.scene)),
+      notes_(scene_.notes), sceneRenderer_(std::make_unique<host::SceneRenderer>(scene_)),
+      surfaces_(targetOptions(options)), composite_(targetOptions(options)),
+      inscatter_(host::makeTexture2D(GL_RGBA32F, options.width, options.height)),
+      transmittance_(host::makeTexture2D(GL_RGBA32F, options.width, options.height)) {
+  tyndall::Config config;
+  config.loader = context_->loader();
+  config.timing = timingFor(context_->driver());
+  tyndall::CreateResult created = tyndall::Effect::create(config);
+  if (!created.status) throw host::Error("effect: " + created.status.message);
+  effect_ = std::move(created.effect);
+
+  const host::Bounds bounds = host::boundsOf(scene_, host::poseAt(scene_, 0));
+  frame_.medium = options.medium ? host::loadMedium(*options.medium) : host::mediumOf(scene_, bounds, notes_);
+  sky_ = host::skyOf(scene_, notes_);
+  frame_.width = options.width;
+  frame_.height = options.height;
+  frame_.colour = composite_.colour();
+  frame_.depth.texture = surfaces_.depth();
+  frame_.output.inscatter = inscatter_.name();
+  frame_.output.transmittance = transmittance_.name();
+  frame_.settings.shadowFilter = options.shadowFilter;
+}
+
+tyndall::Camera FrameRenderer::makeCamera(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) const {
+  const host::CameraOptions cameraOptions{options_.reversedDepth, clipDepthOf(options_)};
+  const double aspect = static_cast<double>(options_.width) / options_.height;
+  if (options_.lookAt)
+    return host::makeLookAt(scene_, worldFromNode, options_.lookAt->eye, options_.lookAt->target,
+                            options_.lookAt->fovDegrees, aspect, cameraOptions);
+  if (!options_.camera && host::cameraNodes(scene_).empty())
+    return host::makeDefaultCamera(scene_, worldFromNode, aspect, cameraOptions, notes);
+  return host::makeCamera(scene_, worldFromNode, options_.camera.value_or(0), aspect, cameraOptions);
+}
+
+std::vector<tyndall::Light> FrameRenderer::makeLights(const std::vector<glm::dmat4>& worldFromNode,
+                                                      host::Notes& notes) const {
+  if (!options_.sun) return host::makeLights(scene_, worldFromNode, notes);
+  tyndall::Light sun = host::makeSun(options_.sun->direction);
+  if (options_.sun->colour) sun.colour = {options_.sun->colour->r, options_.sun->colour->g, options_.sun->colour->b};
+  return {sun};
+}
+
+void FrameRenderer::renderShadowMaps(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) {
+  shadowMaps_.clear();
+  const host::ShadowOptions shadowOptions{options_.reversedDepth, clipDepthOf(options_), options_.cascades};
+  for (tyndall::Light& light : frame_.lights) {
+    addOnce(notes, host::fitShadowViews(light, scene_, worldFromNode, frame_.camera, shadowOptions));
+    if (light.shadow.views.empty()) continue;
+    shadowMaps_.push_back(sceneRenderer_->renderShadowMap(worldFromNode, light, options_.shadowSize));
+    shadowMaps_.back().attachTo(light);
+  }
+}
+
+void FrameRenderer::restoreColour() const {
+  const GladGLContext& functions = host::gl();
+  functions.BindFramebuffer(GL_READ_FRAMEBUFFER, surfaces_.framebuffer());
+  functions.BindFramebuffer(GL_DRAW_FRAMEBUFFER, composite_.framebuffer());
+  functions.Disable(GL_SCISSOR_TEST);
+  functions.BlitFramebuffer(0, 0, options_.width, options_.height, 0, 0, options_.width, options_.height,
+                            GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  functions.BindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+Measurement FrameRenderer::measure() {
+  struct Run {
+    double milliseconds;
+    tyndall::Statistics statistics;
+  };
+  std::vector<Run> runs;
+  const int warmUps = options_.repeat ? 1 : 0;
+  for (int i = 0; i < options_.repeat.value_or(1) + warmUps; ++i) {
+    restoreColour();
+    host::gl().Finish();
+    const auto start = std::chrono::steady_clock::now();
+    const tyndall::Status status = effect_->render(frame_);
+    host::gl().Finish();
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+    if (!status) throw host::Error("effect: " + status.message);
+    if (i >= warmUps) runs.push_back({time.count(), effect_->statistics()});
+  }
+  std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.milliseconds < b.milliseconds; });
+  Measurement measurement;
+  for (const Run& run : runs)
+    measurement.milliseconds.push_back(run.milliseconds);
+  measurement.statistics = runs[(runs.size() - 1) / 2].statistics;
+  return measurement;
+}
+
+void FrameRenderer::throwGlErrors() const {
+  const std::vector<std::string> errors = context_->takeErrors();
+  if (!errors.empty()) throw host::Error("OpenGL: " + errors.front());
+}
+
+Measurement FrameRenderer::render(int frame) {
+  const std::vector<glm::dmat4> worldFromNode = host::poseAt(scene_, frame / kFramesPerSecond);
+  host::Notes notes;
+  frame_.camera = makeCamera(worldFromNode, notes);
+  frame_.lights = makeLights(worldFromNode, notes);
+  renderShadowMaps(worldFromNode, notes);
+  addOnce(notes_, notes);
+  sceneRenderer_->renderScene(worldFromNode, frame_.camera, frame_.lights, surfaces_, sky_, &frame_.medium);
+  Measurement measurement = measure();
+  throwGlErrors();
+  return measurement;
+}
+
+Picture FrameRenderer::readPicture() const {
+  Picture picture;
+  picture.composite = host::readColour(composite_.colour(), options_.width, options_.height);
+  picture.inscatter = host::readColour(inscatter_.name(), options_.width, options_.height);
+  picture.transmittance = host::readColour(transmittance_.name(), options_.width, options_.height);
+  picture.z =
+      viewZ(host::readDepth(surfaces_.depth(), options_.width, options_.height), frame_.camera, options_.reversedDepth);
+  throwGlErrors();
+  return picture;
+}
+
+} // namespace render

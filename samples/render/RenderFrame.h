@@ -1,0 +1,76 @@
+// From options to pictures: a GL context, the scene on the GPU, the effect, and one frame after the other.
+#pragma once
+
+#include "Options.h"
+
+#include <gl/Context.h>
+#include <gl/RenderTargets.h>
+#include <gl/SceneRenderer.h>
+#include <memory>
+#include <scene/Scene.h>
+#include <scene/View.h>
+#include <tyndall/tyndall.h>
+#include <vector>
+
+namespace render {
+
+/// Z where a pixel shows only sky.
+inline constexpr float kSkyZ = 1e30F;
+
+/// RGBA floats, row 0 at the bottom; z is the distance along the view axis.
+struct Picture {
+  std::vector<float> composite;
+  std::vector<float> inscatter;
+  std::vector<float> transmittance;
+  std::vector<float> z;
+};
+
+/// What the effect did in one frame.
+struct Measurement {
+  std::vector<double> milliseconds; ///< of each timed render, wall time around glFinish, ascending
+  tyndall::Statistics statistics;   ///< of the render with the median time
+
+  double median() const;
+};
+
+class FrameRenderer {
+public:
+  /// Opens the context and loads the scene. Throws host::Error.
+  explicit FrameRenderer(const Options& options);
+
+  /// Renders a frame of the animation. Throws host::Error.
+  Measurement render(int frame);
+
+  /// Reads back the last frame.
+  Picture readPicture() const;
+
+  const std::string& driver() const { return context_->driver(); }
+  int lightCount() const { return static_cast<int>(frame_.lights.size()); }
+
+  /// What was made up or left out, each line once.
+  const host::Notes& notes() const { return notes_; }
+
+private:
+  tyndall::Camera makeCamera(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) const;
+  std::vector<tyndall::Light> makeLights(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) const;
+  void renderShadowMaps(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes);
+  void restoreColour() const;
+  Measurement measure();
+  void throwGlErrors() const;
+
+  Options options_;
+  std::unique_ptr<host::Context> context_; ///< outlives all that has GL names
+  host::Scene scene_;
+  host::Notes notes_;
+  glm::vec3 sky_{0};
+  std::unique_ptr<host::SceneRenderer> sceneRenderer_;
+  host::RenderTargets surfaces_;  ///< the scene before the effect
+  host::RenderTargets composite_; ///< its colour, blended over
+  host::GlTexture inscatter_;
+  host::GlTexture transmittance_;
+  std::vector<host::ShadowMapTextures> shadowMaps_;
+  std::unique_ptr<tyndall::Effect> effect_;
+  tyndall::Frame frame_;
+};
+
+} // namespace render

@@ -1,0 +1,79 @@
+// What a generator makes: triangles by material, one camera, lights and the air. Metres, y up, right-handed.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+namespace scenes {
+
+struct Material {
+  std::string name;
+  glm::dvec3 colour{0.5}; ///< linear base colour
+  glm::dvec3 emission{0}; ///< radiance, 0..1
+  bool glass = false;     ///< KHR_materials_transmission, tints light by its colour
+  bool doubleSided = false;
+};
+
+/// The triangles of one material.
+struct Surface {
+  std::vector<glm::dvec3> positions;
+  std::vector<glm::dvec3> normals;
+  std::vector<std::uint32_t> indices;
+};
+
+struct Camera {
+  glm::dvec3 eye{0, 1.7, 5};
+  glm::dvec3 target{0, 1.7, 0};
+  double verticalFov = 60; ///< degrees
+  double nearPlane = 0.1;
+  double farPlane = 200;
+};
+
+enum class LightKind { Directional, Point, Spot };
+
+struct Light {
+  LightKind kind = LightKind::Directional;
+  std::string name = "sun";
+  glm::dvec3 colour{1};           ///< 0..1, multiplied by the intensity
+  double intensity = 1;           ///< directional: irradiance; point, spot: radiant intensity
+  glm::dvec3 position{0};         ///< point, spot
+  glm::dvec3 direction{0, -1, 0}; ///< where the light travels to
+  double innerConeAngle = 20;     ///< degrees, half angle
+  double outerConeAngle = 25;     ///< degrees, half angle
+};
+
+struct Constituent {
+  std::string phase;        ///< as in extras.tyndall.medium
+  glm::dvec3 scattering{0}; ///< 1/metre
+  double g = 0;             ///< written for the phases that have one
+};
+
+struct Scene {
+  std::string name;
+  std::vector<Material> materials;
+  std::vector<Surface> surfaces; ///< one a material
+  Camera camera;
+  std::vector<Light> lights;
+  std::vector<Constituent> constituents;
+  glm::dvec3 absorption{0}; ///< 1/metre
+  glm::dvec3 sky{0};        ///< radiance of the sky and of ambient light
+  /// Positions are rounded to this step, so that the last bits of sin and cos do not reach the file and points
+  /// that are meant to coincide do.
+  double grid = 1.0 / 16384;
+
+  int add(Material material) {
+    materials.push_back(std::move(material));
+    surfaces.emplace_back();
+    return static_cast<int>(materials.size()) - 1;
+  }
+};
+
+Scene makeNave(bool glazed);
+Scene makeForest();
+Scene makeTerrain();
+Scene makeCage();
+Scene makeStage();
+
+} // namespace scenes

@@ -1,0 +1,66 @@
+// tyndall-make-scenes OUTDIR [NAME...]: writes the sample scenes as OUTDIR/NAME.glb.
+#include "GlbWriter.h"
+#include "MeshBuilder.h"
+#include "Scene.h"
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <map>
+
+namespace {
+
+const std::map<std::string, std::function<scenes::Scene()>>& generators() {
+  static const std::map<std::string, std::function<scenes::Scene()>> kGenerators = {
+      {"nave", [] { return scenes::makeNave(false); }},
+      {"nave-glass", [] { return scenes::makeNave(true); }},
+      {"forest", scenes::makeForest},
+      {"terrain", scenes::makeTerrain},
+      {"cage", scenes::makeCage},
+      {"stage", scenes::makeStage},
+  };
+  return kGenerators;
+}
+
+void run(const std::string& folder, std::vector<std::string> names) {
+  if (names.empty())
+    for (const auto& [name, make] : generators())
+      names.push_back(name);
+  std::filesystem::create_directories(folder);
+  for (const std::string& name : names) {
+    scenes::Scene scene = generators().at(name)();
+    scene.name = name;
+    scenes::writeGlb(scene, (std::filesystem::path(folder) / (name + ".glb")).string());
+    std::printf("%s.glb: %zu triangles\n", name.c_str(), scenes::triangleCount(scene));
+  }
+}
+
+int parseAndRun(int argc, char** argv) {
+  CLI::App app{"Writes Tyndall's sample scenes"};
+  std::string folder;
+  std::vector<std::string> names;
+  std::vector<std::string> known;
+  for (const auto& [name, make] : generators())
+    known.push_back(name);
+  app.add_option("OUTDIR", folder, "folder of the .glb files")->required();
+  app.add_option("NAME", names, "scenes to write; all if none is named")->check(CLI::IsMember(known));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  run(folder, names);
+  return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return parseAndRun(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "tyndall-make-scenes: %s\n", error.what());
+    return 1;
+  }
+}
