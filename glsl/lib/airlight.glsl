@@ -39,22 +39,20 @@ Spectrum exponentialSpan(float e0, float slope, float len) {
   return exp(-sigma * start) * relativeExpm1(sigma * (abs(slope) * len)) * len;
 }
 
-// Closed form (Yusov 2013, "Directional light"), with the light's own path where the medium has a boundary.
+// Closed form (Yusov 2013, "Directional light"), with the light's own path where the medium has a boundary: in two parts
+// where the ray crosses it.
 Spectrum airlight(Airlight light, float s0, float s1) {
-  float len = s1 - s0;
-  if (!(len > 0.0)) return Spectrum(0.0);
-  if (light.path == 0.0 && light.pathSlope == 0.0) return light.phase * exponentialSpan(s0, 1.0, len);
-  float p0 = light.path + s0 * light.pathSlope, p1 = light.path + s1 * light.pathSlope;
-  if (p0 >= 0.0 && p1 >= 0.0) return light.phase * exponentialSpan(s0 + p0, 1.0 + light.pathSlope, len);
-  if (p0 <= 0.0 && p1 <= 0.0) return light.phase * exponentialSpan(s0, 1.0, len);
-  // The ray crosses the boundary inside the span.
-  float crossing = clamp(-light.path / light.pathSlope, s0, s1);
-  if (p0 < 0.0) {
-    return light.phase * (exponentialSpan(s0, 1.0, crossing - s0) +
-                          exponentialSpan(crossing, 1.0 + light.pathSlope, s1 - crossing));
+  float crossing = light.pathSlope != 0.0 ? -light.path / light.pathSlope : -1.0;
+  Spectrum sum = Spectrum(0.0);
+  float from = s0;
+  for (int i = 0; i < 2 && from < s1; ++i) {
+    float to = crossing > from && crossing < s1 ? crossing : s1;
+    float path = light.path + from * light.pathSlope, middle = light.path + 0.5 * (from + to) * light.pathSlope;
+    bool attenuated = middle > 0.0;
+    sum += exponentialSpan(from + (attenuated ? max(path, 0.0) : 0.0), attenuated ? 1.0 + light.pathSlope : 1.0, to - from);
+    from = to;
   }
-  return light.phase * (exponentialSpan(s0 + p0, 1.0 + light.pathSlope, crossing - s0) +
-                        exponentialSpan(crossing, 1.0, s1 - crossing));
+  return light.phase * sum;
 }
 
 #else
@@ -179,7 +177,6 @@ const float kNode2 = 0.5773502691896257;
 Spectrum pointPiece(Airlight light, float s0, float s1) {
   const int kMaxPanels = 32;
   const float kDark = 20.0; // optical depths beyond the start after which nothing counts
-  if (!(s1 > s0)) return Spectrum(0.0);
   float t0 = s0 - light.foot, t1 = s1 - light.foot;
   float r0 = sqrt(t0 * t0 + light.height2), r1 = sqrt(t1 * t1 + light.height2);
   float P0 = t0 > 0.0 ? r0 + t0 : light.height2 / (r0 - t0);
@@ -208,16 +205,11 @@ Spectrum pointPiece(Airlight light, float s0, float s1) {
     float halfLength = 0.5 * len;
     float middle = exp(halfLength);
     float Pm = P * middle, Nm = N / middle;
-    if (len < shortPanel && rate * len < 0.3) {
-      float step = exp(halfLength * kNode2);
-      sum += halfLength * (pointIntegrand(light, Pm / step, Nm * step, start, P0) +
-                           pointIntegrand(light, Pm * step, Nm / step, start, P0));
-    } else {
-      for (int k = 0; k < 3; ++k) {
-        float step = exp(halfLength * kNode6[k]);
-        sum += (halfLength * kWeight6[k]) * (pointIntegrand(light, Pm / step, Nm * step, start, P0) +
-                                             pointIntegrand(light, Pm * step, Nm / step, start, P0));
-      }
+    bool isShort = len < shortPanel && rate * len < 0.3;
+    for (int k = 0; k < (isShort ? 1 : 3); ++k) {
+      float step = exp(halfLength * (isShort ? kNode2 : kNode6[k]));
+      sum += (halfLength * (isShort ? 1.0 : kWeight6[k])) * (pointIntegrand(light, Pm / step, Nm * step, start, P0) +
+                                                             pointIntegrand(light, Pm * step, Nm / step, start, P0));
     }
     P = Pm * middle;
     N = Nm / middle;
@@ -229,18 +221,21 @@ Spectrum pointPiece(Airlight light, float s0, float s1) {
 Spectrum airlight(Airlight light, float s0, float s1) {
 #if LIGHT_KIND == 2
   // The falloff has a kink where the ray crosses the inner cone.
-  if (light.inner.x < light.inner.y && s0 < light.inner.y && s1 > light.inner.x) {
-    Spectrum sum = Spectrum(0.0);
-    float from = s0;
-    for (int i = 0; i < 3; ++i) {
-      float to = i == 2 ? s1 : clamp(i == 0 ? light.inner.x : light.inner.y, from, s1);
-      sum += pointPiece(light, from, to);
-      from = to;
+  Spectrum sum = Spectrum(0.0);
+  float from = s0;
+  for (int i = 0; i < 3 && from < s1; ++i) {
+    float to = s1;
+    if (light.inner.x < light.inner.y) {
+      if (light.inner.y > from && light.inner.y < to) to = light.inner.y;
+      if (light.inner.x > from && light.inner.x < to) to = light.inner.x;
     }
-    return sum;
+    sum += pointPiece(light, from, to);
+    from = to;
   }
-#endif
+  return sum;
+#else
   return pointPiece(light, s0, s1);
+#endif
 }
 
 #endif

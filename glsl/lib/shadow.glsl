@@ -92,6 +92,65 @@ vec3 paneTint(ivec2 texel, int view) {
 }
 #endif
 
+// A line through the cells of a view's map, from u = 0 to 1. A cell is a texel (nearest) or the square between four texel
+// centres (bilinear, coordinates shifted by half a texel so that both kinds have integer corners).
+struct Line {
+  vec3 origin, slope; // cell coordinates and depth at u are origin + u slope
+  vec2 inverse;       // u per cell
+  ivec2 direction;    // of the steps along x and y
+};
+
+// Where on its line a walk from cell to cell stands.
+struct Walk {
+  ivec2 cell;
+  int left;       // cells to walk, this one included
+  float u, depth; // and the receiver's depth there
+  vec2 ahead;     // the next grid lines, relative to the line's origin
+};
+
+void startWalk(ViewSegment segment, out Line line, out Walk walk) {
+#if FILTER_BILINEAR
+  const float kShift = 0.5;
+  const int kLowest = -1; // the cell before the first centre
+#else
+  const float kShift = 0.0;
+  const int kLowest = 0;
+#endif
+  line.origin = vec3(segment.p0.xy - kShift, segment.p0.z);
+  vec3 end = vec3(segment.p1.xy - kShift, segment.p1.z);
+  line.slope = end - line.origin;
+  line.direction = ivec2(line.slope.x < 0.0 ? -1 : 1, line.slope.y < 0.0 ? -1 : 1);
+  ivec2 highest = viewCounts.zw - 1;
+  ivec2 last = clamp(ivec2(floor(end.xy)), ivec2(kLowest), highest);
+  walk.cell = clamp(ivec2(floor(line.origin.xy)), ivec2(kLowest), highest);
+  ivec2 extent = abs(last - walk.cell);
+  walk.left = extent.x + extent.y + 1;
+  walk.u = 0.0;
+  walk.depth = line.origin.z;
+  // Along an axis that the line does not move in the next grid line lies at u = 2, which is never reached.
+  bvec2 moves = notEqual(extent, ivec2(0));
+  walk.ahead = vec2(walk.cell + max(line.direction, ivec2(0))) - line.origin.xy;
+  walk.ahead = mix(vec2(2.0), walk.ahead, moves);
+  line.inverse = mix(vec2(1.0), 1.0 / line.slope.xy, moves);
+}
+
+// Where the walk leaves its cell.
+float cellEnd(Line line, Walk walk) {
+  vec2 next = walk.ahead * line.inverse;
+  return walk.left == 1 ? 1.0 : clamp(min(next.x, next.y), walk.u, 1.0);
+}
+
+// Into the next cell, across the nearer grid line.
+void stepCell(Line line, inout Walk walk, float u, float depth) {
+  vec2 next = walk.ahead * line.inverse;
+  ivec2 step = next.x < next.y ? ivec2(line.direction.x, 0) : ivec2(0, line.direction.y);
+  walk.cell += step;
+  walk.ahead += vec2(step);
+  walk.u = u;
+  walk.depth = depth;
+  --walk.left;
+}
+
 #if FILTER_BILINEAR
 
 // Integral over [u0, u1] of a texel centre's bilinear weight (1 - |x|)(1 - |y|) along the line, offsets linear in u:
@@ -102,30 +161,53 @@ float weightIntegral(vec2 offset0, vec2 slope, float u0, float u1) {
   return halfLength * (x.x * x.y + y.x * y.y);
 }
 
-// Mean visibility of [u, uEnd] in one cell between four texel centres (2x2 percentage-closer filtering). Each texel's own
-// comparison flips where the line crosses its depth: uEnd is cut at the first crossing, so that up to there only the
-// bilinear weights vary. p0, slope: the line, texel centres at integers.
-Visibility cellVisibility(ivec2 cell, vec3 p0, vec3 slope, int view, float u, inout float uEnd) {
+vec4 cornerDepths(ivec2 cell, int view) {
   ivec2 last = viewCounts.zw - 1;
-  float inverseDepth = 1.0 / slope.z;
-  vec4 depth;
+  ivec2 low = max(cell, ivec2(0)), high = min(cell + 1, last);
+  return vec4(casterDepth(low, view), casterDepth(ivec2(high.x, low.y), view), casterDepth(ivec2(low.x, high.y), view),
+              casterDepth(high, view));
+}
+
 #if GLASS
-  vec4 pane;
+vec4 cornerPanes(ivec2 cell, int view) {
+  ivec2 last = viewCounts.zw - 1;
+  ivec2 low = max(cell, ivec2(0)), high = min(cell + 1, last);
+  return vec4(paneDepth(low, view), paneDepth(ivec2(high.x, low.y), view), paneDepth(ivec2(low.x, high.y), view),
+              paneDepth(high, view));
+}
+#endif
+
+// True if the visibility of a whole cell, entered and left at the given receiver depths, is `current`: all four texels
+// lit, before their panes, or all dark.
+bool isUnchanged(ivec2 cell, int view, float depthIn, float depthOut, Visibility current) {
+  vec4 depth = cornerDepths(cell, view);
+  float nearer = min(depthIn, depthOut), farther = max(depthIn, depthOut);
+  bool dark = all(lessThan(depth, vec4(nearer)));
+  bool lit = all(greaterThanEqual(depth, vec4(farther)));
+#if GLASS
+  lit = lit && all(greaterThanEqual(cornerPanes(cell, view), vec4(farther)));
+#endif
+  return lit ? current == Visibility(1.0) : dark && current == Visibility(0.0);
+}
+
+// Mean visibility of [u, uEnd] in a cell (2x2 percentage-closer filtering). Each texel's own comparison flips where the
+// line crosses its depth or its pane: uEnd is cut at the first crossing, so that up to there only the weights vary.
+Visibility pieceVisibility(Line line, ivec2 cell, int view, float u, inout float uEnd) {
+  float inverseDepth = 1.0 / line.slope.z;
+  vec4 depth = cornerDepths(cell, view);
+#if GLASS
+  vec4 pane = cornerPanes(cell, view);
 #endif
   for (int k = 0; k < 4; ++k) {
-    ivec2 texel = clamp(cell + ivec2(k & 1, k >> 1), ivec2(0), last);
-    depth[k] = casterDepth(texel, view);
-    float crossing = (depth[k] - p0.z) * inverseDepth;
+    float crossing = (depth[k] - line.origin.z) * inverseDepth;
     if (crossing > u && crossing < uEnd) uEnd = crossing;
 #if GLASS
-    pane[k] = paneDepth(texel, view);
-    float paneCrossing = (pane[k] - p0.z) * inverseDepth;
-    if (paneCrossing > u && paneCrossing < uEnd) uEnd = paneCrossing;
+    crossing = (pane[k] - line.origin.z) * inverseDepth;
+    if (crossing > u && crossing < uEnd) uEnd = crossing;
 #endif
   }
-  float receiver = p0.z + slope.z * (0.5 * (u + uEnd));
+  float receiver = line.origin.z + line.slope.z * (0.5 * (u + uEnd));
   bvec4 lit = greaterThanEqual(depth, vec4(receiver));
-  if (!any(lit)) return Visibility(0.0);
 #if GLASS
   if (all(lit) && !any(lessThan(pane, vec4(receiver)))) return vec3(1.0);
 #else
@@ -133,11 +215,11 @@ Visibility cellVisibility(ivec2 cell, vec3 p0, vec3 slope, int view, float u, in
 #endif
   Visibility sum = Visibility(0.0);
   for (int k = 0; k < 4; ++k) {
-    if (!(receiver <= depth[k])) continue;
     ivec2 corner = cell + ivec2(k & 1, k >> 1);
-    float weight = weightIntegral(p0.xy - vec2(corner), slope.xy, u, uEnd);
+    float weight = lit[k] ? weightIntegral(line.origin.xy - vec2(corner), line.slope.xy, u, uEnd) : 0.0;
 #if GLASS
-    sum += receiver > pane[k] ? weight * paneTint(clamp(corner, ivec2(0), last), view) : vec3(weight);
+    vec3 tint = paneTint(clamp(corner, ivec2(0), viewCounts.zw - 1), view);
+    sum += weight * (receiver > pane[k] ? tint : vec3(1.0));
 #else
     sum += weight;
 #endif
@@ -145,84 +227,97 @@ Visibility cellVisibility(ivec2 cell, vec3 p0, vec3 slope, int view, float u, in
   return sum / max(uEnd - u, 1e-30); // guards a cell of no length, where the sum is 0 too
 }
 
-#endif
+const int kPiecesPerCell = 5 + 4 * GLASS;
 
-// Walks the segment cell by cell and integrates the light of each stretch of equal visibility in one go (the delayed
-// update of Chen 2011, 3.5). A cell is a texel (nearest), cut where the line crosses a stored depth, or the square
-// between four texel centres (bilinear).
-Light segmentLight(Airlight light, ViewSegment segment) {
-#if FILTER_BILINEAR
-  const float kShift = 0.5; // texel centres to integers
-  const int kLowest = -1;   // the cell before the first centre
-  const int kEventsPerCell = 5 + 4 * GLASS; // a cut at each texel's depth and pane
 #else
-  const float kShift = 0.0;
-  const int kLowest = 0;
-  const int kEventsPerCell = 2 + GLASS;
-#endif
-  int view = segment.view;
-  vec3 p0 = vec3(segment.p0.xy - kShift, segment.p0.z), slope = vec3(segment.p1.xy - kShift, segment.p1.z) - p0;
-  ivec2 highest = viewCounts.zw - 1;
-  ivec2 cell = clamp(ivec2(floor(p0.xy)), ivec2(kLowest), highest);
-  ivec2 lastCell = clamp(ivec2(floor(segment.p1.xy - kShift)), ivec2(kLowest), highest);
-  ivec2 direction = ivec2(slope.x < 0.0 ? -1 : 1, slope.y < 0.0 ? -1 : 1);
-  // Lines of the grid lie at integers; the next one ahead is a cell's high side if the line runs up.
-  // A line that does not move along an axis never meets that axis's grid lines.
-  vec2 ahead = vec2(max(direction, ivec2(0))) - p0.xy;
-  vec2 inverse = vec2(1.0);
-  if (slope.x != 0.0) inverse.x = 1.0 / slope.x;
-  else ahead.x = 3e38;
-  if (slope.y != 0.0) inverse.y = 1.0 / slope.y;
-  else ahead.y = 3e38;
-  float inverseDepth = 1.0 / slope.z;
-  ivec2 cells = abs(lastCell - cell);
-  int bound = kEventsPerCell * (cells.x + cells.y + 1);
 
+bool isUnchanged(ivec2 cell, int view, float depthIn, float depthOut, Visibility current) {
+  float depth = casterDepth(cell, view);
+  bool litIn = depthIn <= depth, litOut = depthOut <= depth;
+#if GLASS
+  float pane = paneDepth(cell, view);
+  bool behindIn = depthIn > pane, behindOut = depthOut > pane;
+  vec3 visibility = litIn ? (behindIn ? paneTint(cell, view) : vec3(1.0)) : vec3(0.0);
+  return litIn == litOut && (!litIn || behindIn == behindOut) && visibility == current;
+#else
+  return litIn == (current != 0.0) && litIn == litOut;
+#endif
+}
+
+// Visibility of [u, uEnd] in a texel; uEnd is cut where the line crosses the texel's depth or its pane.
+Visibility pieceVisibility(Line line, ivec2 cell, int view, float u, inout float uEnd) {
+  float inverseDepth = 1.0 / line.slope.z;
+  float depth = casterDepth(cell, view);
+  float crossing = (depth - line.origin.z) * inverseDepth;
+  if (crossing > u && crossing < uEnd) uEnd = crossing;
+#if GLASS
+  float pane = paneDepth(cell, view);
+  crossing = (pane - line.origin.z) * inverseDepth;
+  if (crossing > u && crossing < uEnd) uEnd = crossing;
+  float receiver = line.origin.z + line.slope.z * (0.5 * (u + uEnd));
+  return receiver <= depth ? (receiver > pane ? paneTint(cell, view) : vec3(1.0)) : vec3(0.0);
+#else
+  return line.origin.z + line.slope.z * (0.5 * (u + uEnd)) <= depth ? 1.0 : 0.0;
+#endif
+}
+
+const int kPiecesPerCell = 2 + GLASS;
+
+#endif
+
+// Takes the cell if the visibility is `current` all through it.
+bool takeCell(Line line, int view, inout Walk walk, Visibility current) {
+  float u = cellEnd(line, walk);
+  float depth = line.origin.z + line.slope.z * u;
+  if (walk.left <= 0 || !isUnchanged(walk.cell, view, walk.depth, depth, current)) return false;
+  stepCell(line, walk, u, depth);
+  return true;
+}
+
+// Walks the segment cell by cell and integrates each stretch of equal visibility in one go (the delayed update of Chen
+// 2011, 3.5). Three loops, so that lanes that run together do the same thing at the same time: the innermost only asks
+// whether a cell changes anything; the middle one looks closely at cells that do; the outer one integrates. Four cells an
+// iteration: llvmpipe ends a shader's loops after 65,535 iterations in all.
+Light segmentLight(Airlight light, ViewSegment segment) {
+  int view = segment.view;
+  Line line;
+  Walk walk;
+  startWalk(segment, line, walk);
+  int pieces = kPiecesPerCell * walk.left; // bounds the loops whatever the arithmetic does
   Light sum = Light(0.0);
   Visibility current = Visibility(0.0);
-  float from = 0.0, u = 0.0;
-  for (int i = 0; i <= bound; ++i) {
-    bool done = u >= 1.0 || i == bound;
-    Visibility visibility = Visibility(0.0);
-    float uEnd = u;
-    bool cellEnds = true;
-    vec2 next = (vec2(cell) + ahead) * inverse;
-    if (!done) {
-      float uCell = min(min(next.x, next.y), 1.0);
-      if (cell == lastCell) uCell = 1.0;
-      uEnd = max(u, uCell);
-#if FILTER_BILINEAR
-      float uCut = uEnd;
-      visibility = cellVisibility(cell, p0, slope, view, u, uCut);
-      cellEnds = uCut == uEnd;
-      uEnd = uCut;
-#else
-      float depth = casterDepth(cell, view);
-      float crossing = (depth - p0.z) * inverseDepth;
-      if (crossing > u && crossing < uEnd) { uEnd = crossing; cellEnds = false; }
-#if GLASS
-      float pane = paneDepth(cell, view);
-      float paneCrossing = (pane - p0.z) * inverseDepth;
-      if (paneCrossing > u && paneCrossing < uEnd) { uEnd = paneCrossing; cellEnds = false; }
-      float middle = p0.z + slope.z * (0.5 * (u + uEnd));
-      if (middle <= depth) visibility = middle > pane ? paneTint(cell, view) : vec3(1.0);
-#else
-      visibility = p0.z + slope.z * (0.5 * (u + uEnd)) <= depth ? 1.0 : 0.0;
-#endif
-#endif
+  float from = 0.0;
+  bool done = false;
+  while (!done) {
+    Visibility weight = Visibility(0.0);
+    float begin = 0.0, end = 0.0;
+    while (!done && weight == Visibility(0.0)) {
+      bool walking = true;
+      while (walking) {
+        walking = takeCell(line, view, walk, current) && takeCell(line, view, walk, current) &&
+                  takeCell(line, view, walk, current) && takeCell(line, view, walk, current);
+      }
+      done = walk.left <= 0 || pieces <= 0;
+      float uCell = cellEnd(line, walk), uEnd = uCell;
+      Visibility visibility = Visibility(0.0);
+      if (!done) visibility = pieceVisibility(line, walk.cell, view, walk.u, uEnd);
+      if (visibility != current) {
+        weight = current;
+        begin = from;
+        end = walk.u;
+        current = visibility;
+        from = walk.u;
+      }
+      --pieces;
+      float depth = line.origin.z + line.slope.z * uEnd;
+      if (uEnd < uCell) {
+        walk.u = uEnd;
+        walk.depth = depth;
+      } else {
+        stepCell(line, walk, uEnd, depth);
+      }
     }
-    if (visibility != current) {
-      if (current != Visibility(0.0))
-        sum += Light(current) * Light(airlight(light, distanceAt(segment, from), distanceAt(segment, u)));
-      current = visibility;
-      from = u;
-    }
-    if (done) break;
-    if (cellEnds) {
-      if (next.x < next.y) cell.x += direction.x;
-      else cell.y += direction.y;
-    }
-    u = uEnd;
+    sum += Light(weight) * Light(airlight(light, distanceAt(segment, begin), distanceAt(segment, end)));
   }
   return sum;
 }

@@ -44,6 +44,10 @@ public:
   /// Reads back the last frame.
   Picture readPicture() const;
 
+  /// The scene and the last frame as the effect saw it: its textures live until the next render().
+  const host::Scene& scene() const { return scene_; }
+  const tyndall::Frame& frame() const { return frame_; }
+
   const std::string& driver() const { return context_->driver(); }
   int lightCount() const { return static_cast<int>(frame_.lights.size()); }
 

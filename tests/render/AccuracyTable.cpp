@@ -1,0 +1,39 @@
+// Prints the README's accuracy table: exact against map-exact and scene-exact, every sample scene, three map sizes.
+// tyndall-accuracy [SCENE…]
+#include "reference/Metrics.h"
+#include "render/SceneAnswers.h"
+
+#include <cstdio>
+#include <exception>
+
+namespace {
+
+void printRows(const std::string& scene) {
+  reference::Image truth;
+  for (const int size : {1024, 4096, 8192}) {
+    const tests::SceneAnswers answers = tests::renderScene(tests::sampleOptions(scene, 320, 180, size));
+    if (truth.rgb.empty()) truth = reference::SceneExact(answers.triangles).render(answers.view).inscatter;
+    const reference::ErrorMetrics map =
+        reference::compare(answers.exact.inscatter, reference::mapExact(answers.maps).inscatter);
+    const reference::ErrorMetrics geometry = reference::compare(answers.exact.inscatter, truth);
+    std::printf("| %s | %d² | %.2g %% | %.2g %% | %.2g %% | %.2g %% |\n", scene.c_str(), size, 100 * map.rRmse,
+                100 * map.p99, 100 * geometry.rRmse, 100 * geometry.p99);
+    std::fflush(stdout);
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  try {
+    std::printf(
+        "| scene | shadow map | rRMSE, map-exact | p99 | rRMSE, scene-exact | p99 |\n|---|---|---|---|---|---|\n");
+    const std::vector<std::string> named(argv + 1, argv + argc);
+    for (const std::string& scene : named.empty() ? tests::sampleScenes() : named)
+      printRows(scene);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "tyndall-accuracy: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,28 @@
+// A scene as the effect renders it, with all that the references need to answer the same question.
+#pragma once
+
+#include "reference/MapExact.h"
+#include "reference/SceneExact.h"
+
+#include <render/Options.h>
+
+namespace tests {
+
+/// The sample scenes, by name.
+const std::vector<std::string>& sampleScenes();
+
+/// Options for a sample scene at the given image and shadow-map size.
+render::Options sampleOptions(const std::string& scene, int width, int height, int shadowSize);
+
+struct SceneAnswers {
+  std::string driver;
+  reference::ImageAnswer exact;               ///< what the effect rendered
+  reference::MapScene maps;                   ///< the depth and shadow maps that it read
+  reference::SceneView view;                  ///< the same camera, lights and medium without maps
+  std::vector<reference::Triangle> triangles; ///< of the scene, in world space
+};
+
+/// Renders frame 0.
+SceneAnswers renderScene(const render::Options& options);
+
+} // namespace tests

@@ -1,0 +1,163 @@
+#include "RunTool.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <scene/ImageFile.h>
+
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+constexpr int kSize = 33; ///< odd: the middle pixel's ray runs along the view axis
+
+const Arguments kView = {"triangle.gltf", "--eye", "0,0,5",         "--target", "0,0,0",
+                         "--size",        "33x33", "--shadow-size", "64"};
+
+constexpr const char* kMedium =
+    R"({"constituents": [{"scattering": [0.1, 0.2, 0.3], "phase": "isotropic"}], "absorption": [0.02, 0.02, 0.02]})";
+
+Arguments viewWith(const Arguments& more) {
+  Arguments all = kView;
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+float valueAt(const host::Image& image, const std::string& channel, int x, int y) {
+  const std::vector<float>* values = image.find(channel);
+  REQUIRE(values != nullptr);
+  return values->at(static_cast<std::size_t>(y) * image.width + x);
+}
+
+} // namespace
+
+TEST_CASE("tyndall-render writes what DESIGN 8 says into an EXR") {
+  const tests::ToolFolder folder;
+  folder.write("m.json", kMedium);
+  const tests::ToolResult result =
+      folder.run(viewWith({"--medium", "m.json", "--sun", "0,0,-1,6,5,4", "--out", "a.exr"}));
+  CAPTURE(result.err);
+  REQUIRE(result.exitCode == 0);
+  CHECK(result.out.empty());
+  const host::Image image = host::readExr(folder.path("a.exr"));
+  CHECK(image.width == kSize);
+  CHECK(image.height == kSize);
+  CHECK(image.channels.size() == 10);
+
+  const int middle = kSize / 2;
+  CHECK(valueAt(image, "Z", middle, middle) == Approx(5).epsilon(1e-4));
+  CHECK(valueAt(image, "Z", 0, 0) == 1e30F);
+  const double extinction[] = {0.12, 0.22, 0.32};
+  const double scattering[] = {0.1, 0.2, 0.3};
+  const double irradiance[] = {6, 5, 4};
+  const char* const letters[] = {"R", "G", "B"};
+  for (int c = 0; c < 3; ++c) {
+    CAPTURE(letters[c]);
+    const double transmittance = std::exp(-extinction[c] * 5);
+    const std::string letter = letters[c];
+    CHECK(valueAt(image, "transmittance." + letter, middle, middle) == Approx(transmittance).epsilon(1e-4));
+    CHECK(valueAt(image, "transmittance." + letter, 0, 0) == Approx(0).margin(1e-6));
+    // The sun shines along the view: nothing between eye and triangle is in shadow.
+    const double inscatter =
+        irradiance[c] * scattering[c] / (4 * 3.14159265358979323846) * (1 - transmittance) / extinction[c];
+    CHECK(valueAt(image, "inscatter." + letter, middle, middle) == Approx(inscatter).epsilon(1e-4));
+    CHECK(valueAt(image, letter, middle, middle) > inscatter);
+  }
+  // The triangle's tip points up: the row above the bottom of the picture sees its base, the row below the top does
+  // not.
+  CHECK(valueAt(image, "Z", middle, middle + 5) < 10);
+  CHECK(valueAt(image, "Z", middle - 5, middle + 5) < 10);
+  CHECK(valueAt(image, "Z", middle - 5, middle - 5) == 1e30F);
+}
+
+TEST_CASE("reversed depth makes the same picture") {
+  const tests::ToolFolder folder;
+  const Arguments sun = {"--sun", "0.3,-1,-0.5", "--out"};
+  Arguments standard = viewWith(sun);
+  standard.emplace_back("a.exr");
+  Arguments reversed = viewWith(sun);
+  reversed.insert(reversed.end(), {"b.exr", "--reversed-depth"});
+  REQUIRE(folder.run(standard).exitCode == 0);
+  REQUIRE(folder.run(reversed).exitCode == 0);
+  const host::Image a = host::readExr(folder.path("a.exr"));
+  const host::Image b = host::readExr(folder.path("b.exr"));
+  for (const char* channel : {"R", "inscatter.G", "transmittance.B", "Z"})
+    for (std::size_t i = 0; i < a.find(channel)->size(); ++i)
+      REQUIRE(a.find(channel)->at(i) == Approx(b.find(channel)->at(i)).epsilon(2e-4).margin(1e-6));
+}
+
+TEST_CASE("tyndall-render writes statistics") {
+  const tests::ToolFolder folder;
+  const tests::ToolResult result = folder.run(viewWith({"--repeat", "3", "--stats", "s.json"}));
+  CAPTURE(result.err);
+  REQUIRE(result.exitCode == 0);
+  CHECK(result.out.empty());
+  const nlohmann::json stats = nlohmann::json::parse(folder.read("s.json"));
+  CHECK_FALSE(stats.at("driver").get<std::string>().empty());
+  CHECK(stats.at("context") == "osmesa");
+  CHECK(stats.at("size") == nlohmann::json({kSize, kSize}));
+  CHECK(stats.at("technique") == "exact");
+  CHECK(stats.at("profile") == "reference");
+  const nlohmann::json& time = stats.at("effect_ms");
+  CHECK(time.at("min") > 0);
+  CHECK(time.at("min") <= time.at("median"));
+  CHECK(time.at("median") <= time.at("max"));
+  CHECK(stats.at("bytes") > 0);
+  REQUIRE_FALSE(stats.at("passes").empty());
+  for (const nlohmann::json& pass : stats.at("passes"))
+    CHECK(pass.contains("name") != (pass.contains("ms") == pass.contains("skipped")));
+  CHECK(stats.at("marched_samples") == kSize * kSize);
+  CHECK(stats.at("fixup_pixels") == 0);
+  CHECK(stats.size() == 10);
+}
+
+TEST_CASE("a medium that does nothing leaves the passes skipped and the composite as it was") {
+  const tests::ToolFolder folder;
+  folder.write("m.json", R"({"constituents": [], "absorption": [0, 0, 0]})");
+  REQUIRE(folder.run(viewWith({"--medium", "m.json", "--stats", "s.json", "--out", "a.exr"})).exitCode == 0);
+  const nlohmann::json stats = nlohmann::json::parse(folder.read("s.json"));
+  CHECK(stats.at("marched_samples") == 0);
+  const host::Image image = host::readExr(folder.path("a.exr"));
+  for (const float value : *image.find("inscatter.R"))
+    REQUIRE(value == 0);
+  for (const float value : *image.find("transmittance.G"))
+    REQUIRE(value == 1);
+}
+
+TEST_CASE("a sequence has a picture and an object a frame") {
+  const tests::ToolFolder folder;
+  const tests::ToolResult result =
+      folder.run(viewWith({"--frames", "8-10", "--out", "f%04d.png", "--out", "f%04d.exr", "--stats", "s.json"}));
+  CAPTURE(result.err);
+  REQUIRE(result.exitCode == 0);
+  CHECK(result.err.find("frame") == std::string::npos); // the progress line is for terminals
+  CHECK(folder.files() == std::vector<std::string>{"f0008.exr", "f0008.png", "f0009.exr", "f0009.png", "f0010.exr",
+                                                   "f0010.png", "s.json", "triangle.gltf"});
+  const nlohmann::json stats = nlohmann::json::parse(folder.read("s.json"));
+  CHECK(stats.size() == 1);
+  CHECK(stats.at("frames").size() == 3);
+  CHECK(folder.read("f0008.png") == folder.read("f0010.png")); // nothing moves
+}
+
+TEST_CASE("without a file to write tyndall-render prints a summary, and notes on what it made up") {
+  const tests::ToolFolder folder;
+  const tests::ToolResult result = folder.run({"triangle.gltf", "--size", "16x9", "--shadow-size", "16"});
+  CHECK(result.exitCode == 0);
+  CHECK(result.out.find("triangle.gltf frame 0: 16x9") == 0);
+  for (const char* made : {"note: scene has no camera", "note: scene has no light", "note: scene has no medium"})
+    CHECK(result.err.find(made) != std::string::npos);
+  CHECK(folder.files() == std::vector<std::string>{"triangle.gltf"});
+}
+
+TEST_CASE("help and version answer on standard output") {
+  const tests::ToolFolder folder;
+  const tests::ToolResult help = folder.run({"--help"});
+  CHECK(help.exitCode == 0);
+  CHECK(help.err.empty());
+  for (const char* option : {"--camera", "--eye", "--sun", "--size", "--profile", "--technique", "--medium",
+                             "--shadow-size", "--frames", "--repeat", "--context", "--out", "--stats", "1e30"})
+    CHECK(help.out.find(option) != std::string::npos);
+  const tests::ToolResult version = folder.run({"--version"});
+  CHECK(version.exitCode == 0);
+  CHECK(version.out.find("tyndall-render 0.") == 0);
+}

@@ -1,0 +1,108 @@
+#include "RunTool.h"
+
+#include <algorithm>
+#include <fcntl.h>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace tests {
+
+namespace {
+
+constexpr const char* kTriangle = R"({
+  "asset": {"version": "2.0"},
+  "scene": 0,
+  "scenes": [{"nodes": [0]}],
+  "nodes": [{"mesh": 0}],
+  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [-1, -1, 0], "max": [1, 1, 0]}],
+  "bufferViews": [{"buffer": 0, "byteLength": 36}],
+  "buffers": [{"byteLength": 36,
+    "uri": "data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA"}]
+})";
+
+std::string contentOf(const std::filesystem::path& file) {
+  std::ostringstream content;
+  content << std::ifstream(file, std::ios::binary).rdbuf();
+  return content.str();
+}
+
+std::filesystem::path toolPath() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "tyndall-render";
+}
+
+/// In the child process: becomes the tool, or ends.
+[[noreturn]] void becomeTool(const std::filesystem::path& folder, const std::vector<std::string>& arguments, int out,
+                             int err) {
+  std::vector<std::string> command = {"timeout", "60", toolPath().string()};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  std::vector<char*> pointers;
+  for (std::string& part : command)
+    pointers.push_back(part.data());
+  pointers.push_back(nullptr);
+  const int nothing = open("/dev/null", O_RDONLY);
+  if (chdir(folder.c_str()) == 0 && dup2(nothing, 0) == 0 && dup2(out, 1) == 1 && dup2(err, 2) == 2)
+    execvp("timeout", pointers.data());
+  _exit(125);
+}
+
+} // namespace
+
+std::vector<std::string> ToolResult::errLines() const {
+  std::vector<std::string> lines;
+  std::istringstream stream(err);
+  for (std::string line; std::getline(stream, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+ToolFolder::ToolFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "tyndall-cli-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  folder_ = name;
+  write("triangle.gltf", kTriangle);
+}
+
+ToolFolder::~ToolFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_, ignored);
+}
+
+void ToolFolder::write(const std::string& name, const std::string& text) const {
+  std::ofstream(path(name), std::ios::binary) << text;
+}
+
+std::string ToolFolder::read(const std::string& name) const { return contentOf(path(name)); }
+
+std::vector<std::string> ToolFolder::files() const {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+ToolResult ToolFolder::run(const std::vector<std::string>& arguments) const {
+  const std::string outName = folder_.string() + ".out";
+  const std::string errName = folder_.string() + ".err";
+  const int out = open(outName.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
+  const int err = open(errName.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
+  const pid_t child = fork();
+  if (child == 0) becomeTool(folder_, arguments, out, err);
+  int status = 0;
+  waitpid(child, &status, 0);
+  close(out);
+  close(err);
+  ToolResult result;
+  if (WIFEXITED(status)) result.exitCode = WEXITSTATUS(status);
+  result.out = contentOf(outName);
+  result.err = contentOf(errName);
+  std::filesystem::remove(outName);
+  std::filesystem::remove(errName);
+  return result;
+}
+
+} // namespace tests

@@ -1,0 +1,39 @@
+// Runs tyndall-render as a process of its own, in an empty folder that goes with the test.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tests {
+
+struct ToolResult {
+  int exitCode = -1; ///< 124: ran past a minute; -1: a signal ended it
+  std::string out;
+  std::string err;
+
+  std::vector<std::string> errLines() const;
+};
+
+/// A fresh folder, removed at the end. It holds `triangle.gltf`: corners (-1,-1,0), (1,-1,0), (0,1,0), no camera, no
+/// light.
+class ToolFolder {
+public:
+  ToolFolder();
+  ~ToolFolder();
+  ToolFolder(const ToolFolder&) = delete;
+  ToolFolder& operator=(const ToolFolder&) = delete;
+
+  std::filesystem::path path(const std::string& name) const { return folder_ / name; }
+  void write(const std::string& name, const std::string& text) const;
+  std::string read(const std::string& name) const;
+  std::vector<std::string> files() const; ///< the names of all that lies in it, sorted
+
+  /// Runs tyndall-render with this folder as the working directory.
+  ToolResult run(const std::vector<std::string>& arguments) const;
+
+private:
+  std::filesystem::path folder_;
+};
+
+} // namespace tests
