@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 // The data flow of a frame. Boxes are passes (effect/src/passes, glsl/passes), the rest are textures.
 //
@@ -195,11 +196,11 @@ Status Effect::State::drawLights(const Frame& frame, const FrameTextures& textur
   // The first draw also brings the transmittance; those after it add their light.
   in.blend = direct ? Blend::DualSource : Blend::Replace;
   bool first = true;
-  const auto draw = [&](const std::string& name) {
-    const bool ok = recorder.run(name, [&] { return exact::run(passContext(), in); });
+  const auto draw = [&](const std::string& name) -> Status {
+    if (!recorder.run(name, [&] { return exact::run(passContext(), in); })) return shaderError();
+    const bool wasFirst = std::exchange(first, false);
     in.blend = Blend::Add;
-    first = false;
-    return ok;
+    return wasFirst && destination.transmittance ? attach(frame, destination.inscatter, 0) : Status{};
   };
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     const Light& light = frame.lights[i];
@@ -212,7 +213,10 @@ Status Effect::State::drawLights(const Frame& frame, const FrameTextures& textur
       recorder.skip(name, "the medium does not scatter");
       continue;
     }
-    if (!first && !direct && destination.inscatter == 0) continue; // only the transmittance is wanted, and it is done
+    if (!direct && destination.inscatter == 0) {
+      recorder.skip(name, "only the transmittance is wanted");
+      continue;
+    }
     const FrameTextures::Shadow& map = textures.shadows[i];
     const blocks::LightBlock block = optics::lightBlock(light, frame.camera, map.width, map.height);
     upload(1, &block, sizeof block);
@@ -222,7 +226,7 @@ Status Effect::State::drawLights(const Frame& frame, const FrameTextures& textur
     in.variant.shadowArray = light.shadow.texture && light.shadow.array;
     in.variant.bilinear = light.shadow.texture && frame.settings.shadowFilter == ShadowFilter::Bilinear;
     in.variant.glass = light.glass.colour != 0;
-    if (!draw(name)) return shaderError();
+    if (Status s = draw(name); !s) return s;
   }
   if (!first) return {};
   exact::Variant& v = in.variant;
@@ -230,7 +234,7 @@ Status Effect::State::drawLights(const Frame& frame, const FrameTextures& textur
   v.shadowViews = 0;
   v.shadowArray = v.bilinear = v.glass = false;
   v.monochrome = true;
-  return draw("transmittance") ? Status{} : shaderError();
+  return draw("transmittance");
 }
 
 void Effect::State::upload(int binding, const void* data, std::size_t size) {

@@ -46,11 +46,12 @@ void readTyndallExtras(gltf::Document& document, Scene& scene) {
   const auto extras = source.find("extras");
   if (extras == source.end() || !extras->is_object() || !extras->contains("tyndall")) return;
   const std::string where = gltf::at("scenes", index, "extras.tyndall");
+  const std::string inFile = printable(document.file().string()) + ": " + where;
   const nlohmann::json& tyndall = (*extras)["tyndall"];
   if (!tyndall.is_object()) document.refuse(where, "must be an object");
   for (const auto& [key, value] : tyndall.items()) {
     if (key == "medium") {
-      scene.medium = parseMedium(value, printable(document.file().string()) + ": " + where + ".medium");
+      scene.medium = parseMedium(value, inFile + ".medium");
     } else if (key == "sky") {
       const auto isRadiance = [](const nlohmann::json& v) {
         return v.is_number() && v.get<float>() >= 0 && std::isfinite(v.get<float>());
@@ -60,7 +61,7 @@ void readTyndallExtras(gltf::Document& document, Scene& scene) {
       }
       scene.skyRadiance = {value[0].get<float>(), value[1].get<float>(), value[2].get<float>()};
     } else {
-      document.note(where + "." + key, "is unknown and ignored");
+      document.note(where, key + " is unknown and ignored");
     }
   }
 }

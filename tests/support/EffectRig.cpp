@@ -11,7 +11,17 @@ namespace tests {
 namespace {
 
 bool isDepth(GLenum format) {
-  return format == GL_DEPTH_COMPONENT16 || format == GL_DEPTH_COMPONENT24 || format == GL_DEPTH_COMPONENT32F;
+  switch (format) {
+  case GL_DEPTH_COMPONENT16:
+  case GL_DEPTH_COMPONENT24:
+  case GL_DEPTH_COMPONENT32:
+  case GL_DEPTH_COMPONENT32F:
+  case GL_DEPTH24_STENCIL8:
+  case GL_DEPTH32F_STENCIL8:
+    return true;
+  default:
+    return false;
+  }
 }
 
 GLenum transferFormat(GLenum internalFormat) {

@@ -39,7 +39,7 @@ std::filesystem::path relativePath(const std::string& uri) {
   std::string text = percentDecoded(uri);
   std::replace(text.begin(), text.end(), '\\', '/');
   if (text.empty() || text.find('\0') != std::string::npos) throw Error(quoted + " names no file");
-  const std::filesystem::path path = std::filesystem::path(text).lexically_normal();
+  std::filesystem::path path = std::filesystem::path(text).lexically_normal();
   if (path.is_absolute()) throw Error(quoted + " must not be an absolute path");
   if (*path.begin() == "..") throw Error(quoted + " must not lead out of the file's folder");
   return path;

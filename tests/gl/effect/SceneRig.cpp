@@ -1,4 +1,4 @@
-#include "effect/SceneRig.h"
+#include "SceneRig.h"
 
 #include "gl/ReadBack.h"
 #include "reference/CameraRays.h"
@@ -19,6 +19,7 @@ namespace tests {
 namespace {
 
 constexpr int kShadowSize = 32;
+constexpr double kShadowNear = 0.1, kShadowFar = 12; // of point and spot lights
 
 float uniform(std::mt19937& random) { return static_cast<float>(random() >> 8) * 0x1p-24F; }
 
@@ -91,7 +92,7 @@ std::vector<double> wallDistances(int width, int height) {
   return distances;
 }
 
-std::vector<float> casterDepths(Casters casters, int size, int layers, unsigned seed) {
+std::vector<float> casterDepths(Casters casters, LightKind kind, int size, int layers, unsigned seed) {
   std::vector<float> depths(countOf(size, size, layers), casters == Casters::AllDark ? 0.0F : 1.0F);
   if (casters != Casters::Blocks) return depths;
   std::mt19937 random(seed);
@@ -107,6 +108,13 @@ std::vector<float> casterDepths(Casters casters, int size, int layers, unsigned 
         depth = std::min(depth, base + slope * static_cast<float>(x - x0));
       }
   }
+  if (kind == LightKind::Directional) return depths;
+  // Perspective crowds depth near 1: what was linear becomes a distance.
+  for (float& depth : depths)
+    if (depth < 1) {
+      const double distance = kShadowNear + (kShadowFar - kShadowNear) * depth;
+      depth = static_cast<float>((1 - kShadowNear / distance) * kShadowFar / (kShadowFar - kShadowNear));
+    }
   return depths;
 }
 
@@ -117,21 +125,22 @@ std::vector<ShadowView> shadowViewsOf(const Light& light) {
     return {{toMat4(glm::ortho(-20.0, 20.0, -20.0, 20.0, 1.0, 60.0) * view), 0}};
   }
   if (light.kind == LightKind::Spot)
-    return {{toMat4(glm::perspective(2 * light.outerConeAngle + 0.01, 1.0, 1e-3, 12.0) *
+    return {{toMat4(glm::perspective(2 * light.outerConeAngle + 0.01, 1.0, kShadowNear, kShadowFar) *
                     glm::lookAt(position, position + direction, glm::dvec3(0, 0, 1))),
              0}};
   std::vector<ShadowView> faces;
   for (const glm::dvec3& axis : {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, -1, 0),
                                  glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1)}) {
     const glm::dvec3 up = axis.y != 0 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
-    faces.push_back({toMat4(glm::perspective(glm::radians(90.0), 1.0, 1e-3, 12.0) *
+    faces.push_back({toMat4(glm::perspective(glm::radians(90.0), 1.0, kShadowNear, kShadowFar) *
                             glm::lookAt(position, position + axis, up)),
                      static_cast<int>(faces.size())});
   }
   return faces;
 }
 
-SceneRig::SceneRig(int width, int height) : distances(wallDistances(width, height)) {
+SceneRig::SceneRig(int width, int height, RigContext context) : distances(wallDistances(width, height)) {
+  if (context == RigContext::Test) testContext();
   frame.width = width;
   frame.height = height;
   frame.camera.viewFromWorld = lookAt({0, 1, 6}, {0.1, 0.4, 0});
@@ -215,14 +224,14 @@ Light& SceneRig::addLight(LightKind kind, Casters casters, bool glass) {
   reference::ShadowImage image{};
   if (casters != Casters::None) {
     light.shadow.views = shadowViewsOf(light);
-    image = {kShadowSize, kShadowSize, layers, casterDepths(casters, kShadowSize, layers), {}, {}};
+    image = {kShadowSize, kShadowSize, layers, casterDepths(casters, kind, kShadowSize, layers), {}, {}};
   }
   if (glass) {
     std::mt19937 random(11);
     image.glassColour.resize(3 * image.depth.size());
     for (float& c : image.glassColour)
       c = uniform(random);
-    image.glassDepth = casterDepths(Casters::Blocks, kShadowSize, layers, 13);
+    image.glassDepth = casterDepths(Casters::Blocks, kind, kShadowSize, layers, 13);
   }
   frame.lights.push_back(light);
   images_.emplace_back();

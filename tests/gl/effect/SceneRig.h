@@ -1,4 +1,4 @@
-// A small scene of shafts in whatever context is current: depth, lights with maps, outputs, and its reference.
+// A small scene of shafts: depth, lights with maps, outputs, and its reference.
 #pragma once
 
 #include "support/EffectRig.h"
@@ -31,13 +31,16 @@ enum class Casters { None, Blocks, AllLit, AllDark };
 /// View distances of a wavy wall with some sky (infinite) in it, row 0 at the bottom.
 std::vector<double> wallDistances(int width, int height);
 
-/// Depths in [0, 1], 1 without a caster: blocks, slopes and gaps.
-std::vector<float> casterDepths(Casters casters, int size, int layers, unsigned seed = 7);
+/// Window depths as a light of that kind stores them, 1 without a caster: blocks, slopes and gaps.
+std::vector<float> casterDepths(Casters casters, tyndall::LightKind kind, int size, int layers, unsigned seed = 7);
+
+/// Where a rig's textures live.
+enum class RigContext { Test, Current };
 
 class SceneRig {
 public:
   /// An eye at (0, 1, 6) that looks at the origin's surroundings, the wall behind, a medium, no light.
-  explicit SceneRig(int width = 24, int height = 16);
+  explicit SceneRig(int width = 24, int height = 16, RigContext context = RigContext::Test);
 
   tyndall::Frame frame;
   std::vector<double> distances; ///< view distance per pixel that setConvention() turns into depth

@@ -1,0 +1,377 @@
+// Contexts and loaders: what create() refuses, effects side by side, the wrong context, and what a driver's failure does.
+#include "SceneRig.h"
+#include "gl/Functions.h"
+#include "gl/ReadBack.h"
+#include "passes/Exact.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <ctime>
+#include <map>
+
+using namespace tyndall;
+
+namespace {
+
+// A loader over the test context's own that hides one function and replaces others.
+GlLoader realLoader = nullptr;
+std::string hidden;
+std::map<std::string, void*> replaced;
+
+void* fakeLoader(const char* name) {
+  if (hidden == name) return nullptr;
+  const auto found = replaced.find(name);
+  return found != replaced.end() ? found->second : realLoader(name);
+}
+
+// Hides and replaces functions of the test context while it lives.
+struct FakeContext {
+  explicit FakeContext(const std::string& hide = {}, std::map<std::string, void*> replace = {}) {
+    realLoader = tests::testContext().loader();
+    hidden = hide;
+    replaced = std::move(replace);
+  }
+  ~FakeContext() {
+    hidden.clear();
+    replaced.clear();
+  }
+  static CreateResult create() { return Effect::create({fakeLoader, PassTiming::Off}); }
+};
+
+template <typename Function>
+void* address(Function* function) {
+  return reinterpret_cast<void*>(function);
+}
+
+void GLAD_API_PTR sayVersion32(GLenum name, GLint* value) {
+  if (name == GL_MAJOR_VERSION)
+    *value = 3;
+  else if (name == GL_MINOR_VERSION)
+    *value = 2;
+  else
+    host::gl().GetIntegerv(name, value);
+}
+const GLubyte* GLAD_API_PTR sayDesktop32(GLenum) { return reinterpret_cast<const GLubyte*>("3.2 Old Driver"); }
+const GLubyte* GLAD_API_PTR sayEs32(GLenum) { return reinterpret_cast<const GLubyte*>("OpenGL ES 3.2 Phone"); }
+
+void requireStatus(const CreateResult& result, StatusCode code, const std::string& word) {
+  INFO(result.status.message);
+  CHECK(result.status.code == code);
+  CHECK_FALSE(result.effect);
+  CHECK(result.status.message.find(word) != std::string::npos);
+  CHECK(result.status.message.find('\n') == std::string::npos);
+}
+
+std::unique_ptr<Effect> createHere(GlLoader loader, PassTiming timing = PassTiming::Off) {
+  CreateResult result = Effect::create({loader, timing});
+  INFO(result.status.message);
+  REQUIRE(result.effect);
+  return std::move(result.effect);
+}
+
+// A context with a scene and an effect of its own.
+struct World {
+  std::unique_ptr<host::Context> context;
+  std::unique_ptr<tests::SceneRig> scene;
+  std::unique_ptr<Effect> effect;
+
+  explicit World(host::ContextKind kind) : context(host::Context::create(kind)) {
+    scene = std::make_unique<tests::SceneRig>(24, 16, tests::RigContext::Current);
+    scene->addLight(LightKind::Directional, tests::Casters::Blocks, true);
+    scene->addLight(LightKind::Point);
+    scene->addLight(LightKind::Spot);
+    effect = createHere(context->loader());
+  }
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+  ~World() {
+    context->makeCurrent();
+    effect.reset();
+    scene.reset();
+    CHECK(context->takeErrors().empty());
+  }
+  reference::ImageAnswer render() {
+    context->makeCurrent();
+    return scene->render(*effect);
+  }
+};
+
+host::ContextKind otherKind() {
+  return tests::testContextKind() == host::ContextKind::Osmesa ? host::ContextKind::Egl : host::ContextKind::Osmesa;
+}
+
+// How many objects of each kind live in the current context.
+std::vector<int> liveObjects() {
+  const GladGLContext& g = host::gl();
+  std::vector<int> counts;
+  for (const auto is : {g.IsTexture, g.IsBuffer, g.IsFramebuffer, g.IsVertexArray, g.IsSampler, g.IsQuery, g.IsProgram,
+                        g.IsShader}) {
+    counts.push_back(0);
+    for (GLuint name = 1; name < 4096; ++name)
+      counts.back() += is(name) ? 1 : 0;
+  }
+  return counts;
+}
+
+} // namespace
+
+TEST_CASE("create without a loader is refused") {
+  requireStatus(Effect::create({}), StatusCode::InvalidConfig, "loader");
+}
+
+TEST_CASE("create with a timing that is no enumerator is refused") {
+  const GlLoader loader = tests::testContext().loader();
+  requireStatus(Effect::create({loader, static_cast<PassTiming>(7)}), StatusCode::InvalidConfig, "timing");
+}
+
+TEST_CASE("create without a current context is refused") {
+  host::Context& context = tests::testContext();
+  const GlLoader loader = context.loader();
+  context.releaseCurrent();
+  requireStatus(Effect::create({loader, PassTiming::Off}), StatusCode::NoContext, "no GL context");
+  requireStatus(Effect::create({[](const char*) -> void* { return nullptr; }, PassTiming::Off}), StatusCode::NoContext,
+                "no GL context");
+  context.makeCurrent();
+}
+
+TEST_CASE("create names the required function that the loader does not know") {
+#define TYNDALL_TEST_NAME(result, name, arguments, state) "gl" #name,
+  const std::vector<std::string> names = {TYNDALL_GL_REQUIRED(TYNDALL_TEST_NAME)};
+#undef TYNDALL_TEST_NAME
+  REQUIRE(names.size() > 60);
+  for (const std::string& name : names) {
+    if (name == "glGetString") continue; // without it there is no telling whether a context is current
+    CAPTURE(name);
+    const FakeContext fake(name);
+    requireStatus(FakeContext::create(), StatusCode::ContextTooOld, "no " + name);
+  }
+}
+
+TEST_CASE("create needs no function beyond OpenGL 3.3") {
+#define TYNDALL_TEST_NAME(result, name, arguments, state) "gl" #name,
+  for (const std::string name : {TYNDALL_GL_OPTIONAL(TYNDALL_TEST_NAME)}) {
+    CAPTURE(name);
+    const FakeContext fake(name);
+    const CreateResult result = FakeContext::create();
+    INFO(result.status.message);
+    CHECK(result.effect);
+  }
+#undef TYNDALL_TEST_NAME
+}
+
+TEST_CASE("create refuses a context that is too old") {
+  const FakeContext fake({}, {{"glGetIntegerv", address(sayVersion32)}, {"glGetString", address(sayDesktop32)}});
+  requireStatus(FakeContext::create(), StatusCode::ContextTooOld, "3.2 Old Driver");
+}
+
+TEST_CASE("create refuses OpenGL ES") {
+  const FakeContext fake({}, {{"glGetString", address(sayEs32)}});
+  requireStatus(FakeContext::create(), StatusCode::ContextTooOld, "OpenGL ES 3.2 Phone");
+}
+
+TEST_CASE("calls without a current context, or in another, are refused") {
+  World world(tests::testContextKind());
+  const reference::ImageAnswer before = world.render();
+  const auto checkRefused = [&](const std::string& word) {
+    for (const Status& status : {world.effect->render(world.scene->frame), world.effect->compileAll()}) {
+      INFO(status.message);
+      CHECK(status.code == StatusCode::NoContext);
+      CHECK(status.message.find(word) != std::string::npos);
+      CHECK(status.message.find('\n') == std::string::npos);
+    }
+  };
+  world.context->releaseCurrent();
+  checkRefused("no GL context");
+  {
+    const std::unique_ptr<host::Context> empty = host::Context::create(tests::testContextKind());
+    checkRefused("another GL context");
+    CHECK(empty->takeErrors().empty());
+  }
+  {
+    const World other(tests::testContextKind()); // made alike, so that its objects have the same names
+    checkRefused("another GL context");
+  }
+  CHECK(world.render().inscatter.rgb == before.inscatter.rgb);
+}
+
+TEST_CASE("two effects in one context draw the same") {
+  tests::SceneRig scene;
+  scene.addLight(LightKind::Spot, tests::Casters::Blocks, true);
+  const reference::ImageAnswer expected = scene.render();
+  std::unique_ptr<Effect> first = createHere(tests::testContext().loader());
+  std::unique_ptr<Effect> second = createHere(tests::testContext().loader());
+  for (int frame = 0; frame < 3; ++frame)
+    for (Effect* effect : {first.get(), second.get(), &tests::testEffect()})
+      CHECK(scene.render(*effect).inscatter.rgb == expected.inscatter.rgb);
+  first.reset();
+  CHECK(scene.render(*second).inscatter.rgb == expected.inscatter.rgb);
+}
+
+TEST_CASE("effects in two contexts draw the same, frame by frame in turn") {
+  World first(tests::testContextKind());
+  World second(tests::testContextKind());
+  const reference::ImageAnswer expected = first.render();
+  CHECK(expected.inscatter.rgb != std::vector<double>(expected.inscatter.rgb.size(), 0));
+  for (int frame = 0; frame < 3; ++frame)
+    for (World* world : {&second, &first}) {
+      const reference::ImageAnswer answer = world->render();
+      CHECK(answer.inscatter.rgb == expected.inscatter.rgb);
+      CHECK(answer.transmittance.rgb == expected.transmittance.rgb);
+    }
+}
+
+TEST_CASE("OSMesa and EGL draw the same picture") {
+  World here(tests::testContextKind());
+  World other(otherKind());
+  for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear}) {
+    here.scene->frame.settings.shadowFilter = other.scene->frame.settings.shadowFilter = filter;
+    const reference::ImageAnswer a = here.render(), b = other.render();
+    CHECK(tests::difference(a.inscatter, b.inscatter) <= 1e-5);
+    CHECK(tests::difference(a.transmittance, b.transmittance) <= 1e-5);
+  }
+}
+
+TEST_CASE("an effect leaves no GL object behind") {
+  tests::SceneRig scene;
+  scene.addLight(LightKind::Directional);
+  const host::GlTexture colour = scene.makeColour(GL_RGBA16F, std::vector<float>(4 * 24 * 16, 1.0F));
+  const std::vector<int> before = liveObjects();
+  for (int i = 0; i < 3; ++i) {
+    const std::unique_ptr<Effect> effect = createHere(tests::testContext().loader(), PassTiming::TimerQuery);
+    Frame frame = scene.frame;
+    frame.output.transmittance = 0; // so that a target of the effect's own is needed
+    CHECK(effect->render(frame));
+    CHECK(effect->statistics().bytes >= 16 * 24 * 16);
+    frame.width = 0;
+    CHECK_FALSE(effect->render(frame));
+  }
+  {
+    const FakeContext fake("glQueryCounter");
+    CHECK_FALSE(FakeContext::create().effect);
+  }
+  CHECK(liveObjects() == before);
+}
+
+TEST_CASE("every shader variant compiles, and no frame needs another") {
+  tests::testContext();
+  const std::unique_ptr<Effect> effect = createHere(tests::testContext().loader());
+  CHECK(effect->statistics().compiledPrograms == 0);
+  const std::clock_t start = std::clock();
+  const Status status = effect->compileAll();
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC; // of this process on all cores
+  INFO(status.message);
+  REQUIRE(status);
+  const auto count = static_cast<int>(passes::exact::allVariants().size()) + 1; // and the composite
+  CHECK(effect->statistics().compiledPrograms == count);
+  INFO(count << " programs in " << seconds << " s");
+  CHECK(seconds < 30);
+
+  tests::SceneRig scene(2, 2);
+  const host::GlTexture colour = scene.makeColour(GL_RGBA16F, std::vector<float>(16, 1.0F));
+  const reference::ShadowImage image{2, 2, 1, std::vector<float>(4, 0.5F), {}, {}};
+  for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot})
+    for (const int views : {1, 2})
+      for (const bool array : {false, true}) {
+        if (kind == LightKind::Spot && views > 1) continue;
+        scene.frame.lights.clear();
+        Light light;
+        light.kind = kind;
+        light.position = {0, 3, 0};
+        light.shadow.views.assign(static_cast<std::size_t>(views), tests::shadowViewsOf(light)[0]);
+        tests::ShadowRig map;
+        map.image = image;
+        map.upload(light, array);
+        scene.frame.lights = {light};
+        CAPTURE(static_cast<int>(kind), views, array);
+        if (effect->render(scene.frame)) CHECK(effect->statistics().compiledPrograms == count);
+      }
+}
+
+// -------------------------------------------------------------------------------------------------------------------
+// A driver that fails
+
+namespace {
+
+int failFrom = 0; // the call from which on the function below fails
+
+void GLAD_API_PTR refuseShaders(GLuint shader, GLenum name, GLint* value) {
+  host::gl().GetShaderiv(shader, name, value);
+  if (name == GL_COMPILE_STATUS) *value = GL_FALSE;
+}
+void GLAD_API_PTR refuseToLink(GLuint program, GLenum name, GLint* value) {
+  host::gl().GetProgramiv(program, name, value);
+  if (name == GL_LINK_STATUS && --failFrom <= 0) *value = GL_FALSE;
+}
+GLenum GLAD_API_PTR refuseFramebuffer(GLenum target) {
+  return --failFrom <= 0 ? GL_FRAMEBUFFER_UNSUPPORTED : host::gl().CheckFramebufferStatus(target);
+}
+GLenum GLAD_API_PTR runOutOfMemory() { return host::gl().GetError() == GL_NO_ERROR ? GL_OUT_OF_MEMORY : GL_INVALID_ENUM; }
+
+struct FailingFrame {
+  tests::SceneRig scene;
+  std::vector<float> content = std::vector<float>(4 * 24 * 16, 0.5F);
+  host::GlTexture colour = scene.makeColour(GL_RGBA16F, content);
+  host::GlTexture inscatter, transmittance;
+
+  FailingFrame() {
+    scene.addLight(LightKind::Directional);
+    inscatter = tests::floatTexture(GL_RGBA32F, 24, 16, content);
+    transmittance = tests::floatTexture(GL_RGBA32F, 24, 16, content);
+    scene.frame.output = {inscatter.name(), transmittance.name()};
+  }
+  void check(Effect& effect, StatusCode code) {
+    const Status status = effect.render(scene.frame);
+    INFO(status.message);
+    CHECK(status.code == code);
+    CHECK_FALSE(status.message.empty());
+    for (const host::GlTexture* target : {&colour, &inscatter, &transmittance})
+      CHECK(tests::bitEqual(host::readColour(target->name(), 24, 16), content));
+  }
+};
+
+} // namespace
+
+TEST_CASE("a shader that does not compile is reported and nothing is drawn") {
+  FailingFrame frame;
+  const FakeContext fake({}, {{"glGetShaderiv", address(refuseShaders)}});
+  const CreateResult result = FakeContext::create();
+  REQUIRE(result.effect);
+  frame.check(*result.effect, StatusCode::ShaderError);
+  CHECK(result.effect->compileAll().code == StatusCode::ShaderError);
+}
+
+TEST_CASE("a program that does not link is reported and nothing is drawn, whichever pass it is of") {
+  FailingFrame frame;
+  const FakeContext fake({}, {{"glGetProgramiv", address(refuseToLink)}});
+  for (failFrom = 1; failFrom <= 2;) {
+    const int call = failFrom;
+    CAPTURE(call);
+    const CreateResult result = FakeContext::create();
+    REQUIRE(result.effect);
+    frame.check(*result.effect, StatusCode::ShaderError);
+    failFrom = call + 1;
+  }
+}
+
+TEST_CASE("a framebuffer that the context refuses is reported and nothing is drawn, whichever pass it is of") {
+  FailingFrame frame;
+  const FakeContext fake({}, {{"glCheckFramebufferStatus", address(refuseFramebuffer)}});
+  for (failFrom = 1; failFrom <= 2;) {
+    const int call = failFrom;
+    CAPTURE(call);
+    const CreateResult result = FakeContext::create();
+    REQUIRE(result.effect);
+    frame.check(*result.effect, StatusCode::InvalidFrame);
+    failFrom = call + 1;
+  }
+}
+
+TEST_CASE("running out of memory is reported and nothing is drawn") {
+  FailingFrame frame;
+  frame.scene.frame.output.transmittance = 0; // so that a target of the effect's own is needed
+  const FakeContext fake({}, {{"glGetError", address(runOutOfMemory)}});
+  const CreateResult result = FakeContext::create();
+  REQUIRE(result.effect);
+  frame.check(*result.effect, StatusCode::OutOfMemory);
+  CHECK(result.effect->statistics().bytes < 16 * 24 * 16);
+}
