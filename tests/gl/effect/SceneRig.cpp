@@ -282,7 +282,13 @@ reference::ImageAnswer SceneRig::reference() const {
 }
 
 double difference(const reference::Image& image, const reference::Image& expected) {
-  return reference::compare(image, expected).max;
+  const reference::ErrorMetrics metrics = reference::compare(image, expected);
+  if (!std::isfinite(metrics.max)) return metrics.max;
+  double worst = 0;
+  for (std::size_t i = 0; i < image.rgb.size(); ++i)
+    if (const double error = std::abs(image.rgb[i] - expected.rgb[i]); error > 0)
+      worst = std::max(worst, error / std::max(metrics.mean, expected.rgb[i]));
+  return worst;
 }
 
 bool isFiniteAndNonNegative(const reference::Image& image) {

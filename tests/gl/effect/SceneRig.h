@@ -90,7 +90,8 @@ private:
 /// A light's own shadow views as addLight() makes them, for the light's position and direction.
 std::vector<tyndall::ShadowView> shadowViewsOf(const tyndall::Light& light);
 
-/// Largest absolute difference over the mean of the second image; infinite if a value is not finite.
+/// Largest difference, relative to the expected value or to the mean of all of them, whichever is larger; infinite if a
+/// value is not finite.
 double difference(const reference::Image& image, const reference::Image& expected);
 
 /// True if all values are finite and >= 0.
