@@ -34,3 +34,14 @@ UNIFORM_BLOCK(LightBlock) {
   vec4 viewDepth[MAX_SHADOW_VIEWS];   // depth of near and far plane, sign of stored depth, 1 if open beyond the far plane
   ivec4 viewLayer[MAX_SHADOW_VIEWS];  // array layer in x
 };
+
+// Epipolar sampling (Yusov 2013). Window positions are in pixels as gl_FragCoord.xy; the border is the rectangle through
+// the outermost pixel centres.
+UNIFORM_BLOCK(EpipolarBlock) {
+  vec4 epipole;       // homogeneous window position of the light (x, y, w), w: sign of w
+  vec4 border;        // low x, low y, high x, high y
+  vec4 sliceMap;      // arc length of the border where the slices begin, arc length per slice, perimeter; w: 1 if closed
+  vec4 thresholds;    // x: relative change of distance that is a break, y: least bilateral weight, z: 1 for the tree
+  ivec4 grid;         // slices, samples, texels of a row, levels of the tree
+  ivec4 march;        // shadow view of a draw, its first table row; z: 1 for the draw that brings what is outside all views
+};

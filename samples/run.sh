@@ -1,5 +1,5 @@
 #!/bin/sh
-# Installs packages, builds tyndall-render and the sample scenes, and renders the gallery into out/gallery.
+# Installs packages, builds tyndall-render and the sample scenes, and renders the README's gallery into out/gallery.
 set -eu
 cd "$(dirname "$0")/.."
 . samples/setup.sh
@@ -10,11 +10,22 @@ say "Building into build/"
 cmake -S . -B build -G Ninja -DTYNDALL_BUILD_TESTS=OFF
 cmake --build build
 
+# picture SCENE [OPTION...]: 960x540 pixels, each the mean of 2x2.
+picture() {
+  scene=$1
+  shift
+  set -- build/bin/tyndall-render "build/scenes/$scene.glb" --size 960x540 --supersample 2 "$@" \
+    --out "out/gallery/$scene.png" --stats "out/gallery/$scene.json"
+  echo "$*"
+  "$@"
+}
+
 say "Rendering the gallery into out/gallery/"
 mkdir -p out/gallery
-for scene in nave nave-glass forest terrain cage stage; do
-  build/bin/tyndall-render "build/scenes/$scene.glb" --size 1280x720 --shadow-size 4096 --context osmesa \
-    --out "out/gallery/$scene.png" --out "out/gallery/$scene.exr" --stats "out/gallery/$scene.json"
-  echo "out/gallery/$scene.png"
-done
+picture nave-glass
+picture nave
+picture forest
+picture terrain
+picture cage --shadow-size 2048
+picture stage
 say "Done: look at out/gallery/"

@@ -46,11 +46,18 @@ Status checkMatrix(const std::string& field, const Mat4& matrix) {
   return {};
 }
 
+Status checkClipDepth(const std::string& field, ClipDepth clipDepth) {
+  if (clipDepth == ClipDepth::NegativeOneToOne || clipDepth == ClipDepth::ZeroToOne) return {};
+  return invalid(field, std::to_string(static_cast<int>(clipDepth)), "must be one of the enumerators");
+}
+
 Status checkCamera(const Camera& camera) {
   if (Status s = checkMatrix("camera.viewFromWorld", camera.viewFromWorld); !s) return s;
   const Mat4& view = camera.viewFromWorld;
-  if (view[3] != 0 || view[7] != 0 || view[11] != 0 || view[15] != 1)
+  constexpr double kRounding = 1e-5; // of a matrix that a general inverse made, in float
+  if (std::abs(view[3]) + std::abs(view[7]) + std::abs(view[11]) > kRounding || std::abs(view[15] - 1) > kRounding)
     return invalid("camera.viewFromWorld", "not affine", "its last row must be (0, 0, 0, 1)");
+  if (Status s = checkClipDepth("camera.clipDepth", camera.clipDepth); !s) return s;
   return checkMatrix("camera.clipFromView", camera.clipFromView);
 }
 
@@ -80,6 +87,7 @@ Status checkViews(const std::string& light, LightKind kind, const ShadowMap& sha
                                                     : "a point light has 1 to 6 (cube faces)";
   const std::size_t most = kind == LightKind::Directional ? 4 : kind == LightKind::Spot ? 1 : 6;
   if (count < 1 || count > most) return invalid(light + "shadow.views", std::to_string(count) + " long", rule);
+  if (Status s = checkClipDepth(light + "shadow.clipDepth", shadow.clipDepth); !s) return s;
   for (std::size_t i = 0; i < count; ++i) {
     const std::string field = light + "shadow.views[" + std::to_string(i) + "].";
     if (Status s = checkMatrix(field + "clipFromWorld", shadow.views[i].clipFromWorld); !s) return s;
@@ -138,12 +146,21 @@ Status checkLight(const std::string& field, const Light& light) {
 }
 
 Status checkSettings(const Settings& settings) {
-  if (settings.technique != Technique::Exact)
-    return invalid("settings.technique", std::to_string(static_cast<int>(settings.technique)),
-                   "must be one of the enumerators");
+  const auto enumerator = [](const char* field, int value) {
+    return invalid(field, std::to_string(value), "must be one of the enumerators");
+  };
+  if (settings.technique < Technique::Exact || settings.technique > Technique::Epipolar)
+    return enumerator("settings.technique", static_cast<int>(settings.technique));
   if (settings.shadowFilter != ShadowFilter::Nearest && settings.shadowFilter != ShadowFilter::Bilinear)
-    return invalid("settings.shadowFilter", std::to_string(static_cast<int>(settings.shadowFilter)),
-                   "must be one of the enumerators");
+    return enumerator("settings.shadowFilter", static_cast<int>(settings.shadowFilter));
+  if (settings.slices < 1 || settings.slices > 8192)
+    return invalid("settings.slices", std::to_string(settings.slices), "must be 1 to 8192");
+  if (settings.samples < 64 || settings.samples > 8192 || settings.samples % 64 != 0)
+    return invalid("settings.samples", std::to_string(settings.samples), "must be a multiple of 64 from 64 to 8192");
+  if (!(settings.breakThreshold > 0 && std::isfinite(settings.breakThreshold)))
+    return invalid("settings.breakThreshold", text(settings.breakThreshold), "must be finite and > 0");
+  if (!(settings.leastWeight >= 0 && settings.leastWeight <= 1))
+    return invalid("settings.leastWeight", text(settings.leastWeight), "must be 0 to 1");
   return {};
 }
 

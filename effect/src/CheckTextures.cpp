@@ -147,6 +147,10 @@ Status checkDistinct(const Frame& frame) {
     return invalid("output.inscatter", out.inscatter, "must differ from colour and output.transmittance");
   if (out.transmittance && out.transmittance == frame.colour)
     return invalid("output.transmittance", out.transmittance, "must differ from colour");
+  for (std::size_t i = 0; i < frame.lights.size(); ++i)
+    if (const Uint glass = frame.lights[i].glass.colour;
+        glass && (glass == frame.colour || glass == out.inscatter || glass == out.transmittance))
+      return invalid("lights[" + std::to_string(i) + "].glass.colour", glass, "must differ from colour and output");
   return {};
 }
 

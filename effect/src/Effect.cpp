@@ -5,10 +5,12 @@
 #include "gl/StateGuard.h"
 #include "optics/Blocks.h"
 #include "passes/Composite.h"
+#include "passes/Epipolar.h"
 #include "passes/Exact.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <utility>
 
 // The data flow of a frame. Boxes are passes (effect/src/passes, glsl/passes), the rest are textures.
@@ -31,6 +33,8 @@ struct Effect::State {
   PassRecorder recorder;
   gl::VertexArray vertexArray;
   gl::Framebuffer framebuffer;
+  passes::epipolar::Objects epipolar;
+  gl::Int id = 0; ///< kept in our sampler, where it tells this context from another with the same names
   gl::Sampler nearestSampler;
   std::array<gl::Buffer, gl::kUniformBindings> uniformBuffers;
 
@@ -44,7 +48,7 @@ struct Effect::State {
   Status checkContext() const;
   Status renderChecked(const Frame& frame, const FrameTextures& textures);
   Status chooseDestination(const Frame& frame, bool changesColour, Destination& destination);
-  Status attach(const Frame& frame, gl::Uint first, gl::Uint second);
+  Status attach(const Frame& frame, gl::Uint first, gl::Uint second, bool withStencil = false);
   Status drawLights(const Frame& frame, const FrameTextures& textures, const Destination& destination);
   void upload(int binding, const void* data, std::size_t size);
   passes::PassContext passContext() { return {gl, programs, nearestSampler.name()}; }
@@ -60,17 +64,20 @@ CreateResult Effect::create(const Config& config) {
   if (!config.loader)
     return {nullptr,
             {StatusCode::InvalidConfig, "Config::loader is null: a function that resolves GL names is needed"}};
+  if (config.timing < PassTiming::Off || config.timing > PassTiming::Finish)
+    return {nullptr,
+            {StatusCode::InvalidConfig, "Config::timing is " + std::to_string(static_cast<int>(config.timing)) +
+                                            ": must be one of the enumerators"}};
   auto state = std::make_unique<State>(config);
   gl::Functions& gl = state->gl;
   const std::string missing = gl.load(config.loader);
   if (!gl.GetString || !gl.GetString(gl::VERSION))
     return {nullptr, {StatusCode::NoContext, "no GL context is current on this thread"}};
   const std::string version = reinterpret_cast<const char*>(gl.GetString(gl::VERSION));
+  if (!gl.GetIntegerv) return {nullptr, {StatusCode::ContextTooOld, "the loader knows no " + missing}};
   gl::Int major = 0, minor = 0;
-  if (gl.GetIntegerv) {
-    gl.GetIntegerv(gl::MAJOR_VERSION, &major); // an error, and 0, before OpenGL 3.0
-    gl.GetIntegerv(gl::MINOR_VERSION, &minor);
-  }
+  gl.GetIntegerv(gl::MAJOR_VERSION, &major); // an error, and 0, before OpenGL 3.0
+  gl.GetIntegerv(gl::MINOR_VERSION, &minor);
   gl.version = 10 * major + minor;
   if (gl.version < 33 || version.rfind("OpenGL ES", 0) == 0)
     return {nullptr,
@@ -95,7 +102,7 @@ Status Effect::render(const Frame& frame) {
 
 Statistics Effect::statistics() {
   std::uint64_t bytes = state_->targets.bytes() + sizeof(blocks::FrameBlock) + sizeof(blocks::LightBlock);
-  return {state_->recorder.collect(), bytes, state_->programs.size()};
+  return {state_->recorder.collect(), bytes, state_->programs.size(), state_->recorder.fixupPixels()};
 }
 
 Status Effect::compileAll() {
@@ -103,6 +110,8 @@ Status Effect::compileAll() {
   const gl::StateGuard guard(state_->gl);
   for (const passes::exact::Variant& variant : passes::exact::allVariants())
     if (!state_->programs.use("passes/exact.frag", passes::exact::definitionsOf(variant))) return state_->shaderError();
+  for (const auto& [fragment, definitions] : passes::epipolar::allVariants())
+    if (!state_->programs.use(fragment, definitions)) return state_->shaderError();
   if (!state_->programs.use("passes/composite.frag", {})) return state_->shaderError();
   return {};
 }
@@ -114,19 +123,27 @@ void Effect::State::createObjects() {
   vertexArray = gl::VertexArray(gl);
   gl.BindVertexArray(vertexArray.name()); // a name becomes an object when it is first bound
   framebuffer = gl::Framebuffer(gl);
+  epipolar.scratch = gl::Framebuffer(gl);
+  epipolar.fixup = gl::Query(gl);
   nearestSampler = gl::Sampler(gl);
   for (const gl::Enum filter : {gl::TEXTURE_MIN_FILTER, gl::TEXTURE_MAG_FILTER})
     gl.SamplerParameteri(nearestSampler.name(), filter, gl::NEAREST);
   for (const gl::Enum wrap : {gl::TEXTURE_WRAP_S, gl::TEXTURE_WRAP_T})
     gl.SamplerParameteri(nearestSampler.name(), wrap, gl::CLAMP_TO_EDGE);
   gl.SamplerParameteri(nearestSampler.name(), gl::TEXTURE_COMPARE_MODE, gl::NONE);
+  static std::atomic<int> count{0};
+  id = -1000 - ++count % 1000000; // exact in a float, and of no effect: our shaders fetch texels
+  gl.SamplerParameteri(nearestSampler.name(), gl::TEXTURE_MIN_LOD, id);
   for (gl::Buffer& buffer : uniformBuffers)
     buffer = gl::Buffer(gl);
 }
 
 Status Effect::State::checkContext() const {
   if (!gl.GetString(gl::VERSION)) return {StatusCode::NoContext, "no GL context is current on this thread"};
-  if (!gl.IsVertexArray(vertexArray.name()))
+  gl::Int marker = 0;
+  if (gl.IsSampler(nearestSampler.name()))
+    gl.GetSamplerParameteriv(nearestSampler.name(), gl::TEXTURE_MIN_LOD, &marker);
+  if (!gl.IsVertexArray(vertexArray.name()) || marker != id)
     return {StatusCode::NoContext, "another GL context is current than the one the effect was created in"};
   gl::Int feedback = 0;
   if (gl.version >= 40) gl.GetIntegerv(gl::TRANSFORM_FEEDBACK_ACTIVE, &feedback);
@@ -141,6 +158,10 @@ Status Effect::State::renderChecked(const Frame& frame, const FrameTextures& tex
 
   Destination destination;
   if (Status s = chooseDestination(frame, changesColour, destination); !s) return s;
+  if (destination.composite) { // whatever refuses must do so before anything is drawn
+    if (Status s = attach(frame, frame.colour, 0); !s) return s;
+    if (!programs.use("passes/composite.frag", {})) return shaderError();
+  }
   gl.BindVertexArray(vertexArray.name());
   gl.Viewport(0, 0, frame.width, frame.height);
   const auto lights = static_cast<float>(std::max<std::size_t>(frame.lights.size(), 1));
@@ -169,10 +190,14 @@ Status Effect::State::chooseDestination(const Frame& frame, bool changesColour, 
           "GL could not allocate a texture of " + std::to_string(frame.width) + " x " + std::to_string(frame.height)};
 }
 
-Status Effect::State::attach(const Frame& frame, gl::Uint first, gl::Uint second) {
+Status Effect::State::attach(const Frame& frame, gl::Uint first, gl::Uint second, bool withStencil) {
   gl.BindFramebuffer(gl::DRAW_FRAMEBUFFER, framebuffer.name());
   gl.FramebufferTexture2D(gl::DRAW_FRAMEBUFFER, gl::COLOR_ATTACHMENT0, gl::TEXTURE_2D, first, 0);
   gl.FramebufferTexture2D(gl::DRAW_FRAMEBUFFER, gl::COLOR_ATTACHMENT0 + 1, gl::TEXTURE_2D, second, 0);
+  const gl::Uint stencil = withStencil ? targets.stencil(frame.width, frame.height) : 0;
+  if (withStencil && !stencil) return {StatusCode::OutOfMemory, "GL could not allocate a stencil buffer"};
+  gl.FramebufferRenderbuffer(gl::DRAW_FRAMEBUFFER, gl::STENCIL_ATTACHMENT, gl::RENDERBUFFER, stencil);
+  gl.Viewport(0, 0, frame.width, frame.height);
   const std::array<gl::Enum, 2> buffers = {first ? gl::COLOR_ATTACHMENT0 : gl::NONE,
                                            second ? gl::COLOR_ATTACHMENT0 + 1 : gl::NONE};
   gl.DrawBuffers(second ? 2 : 1, buffers.data());
@@ -196,15 +221,34 @@ Status Effect::State::drawLights(const Frame& frame, const FrameTextures& textur
   // The first draw also brings the transmittance; those after it add their light.
   in.blend = direct ? Blend::DualSource : Blend::Replace;
   bool first = true;
-  const auto draw = [&](const std::string& name) -> Status {
-    if (!recorder.run(name, [&] { return exact::run(passContext(), in); })) return shaderError();
-    const bool wasFirst = std::exchange(first, false);
+  const bool fast = frame.settings.technique != Technique::Exact && !frame.depth.multisampled;
+  const auto attachDestination = [&](bool withStencil) {
+    return direct ? attach(frame, frame.colour, 0, withStencil)
+                  : attach(frame, destination.inscatter, first ? destination.transmittance : 0, withStencil);
+  };
+  const auto draw = [&](const std::string& name, const FrameTextures::Shadow& map) -> Status {
+    if (fast && in.light) {
+      const epipolar::In light{
+          &frame,
+          in.light,
+          map,
+          in.variant,
+          in.blend,
+          name,
+          attachDestination,
+          [this](int binding, const void* data, std::size_t size) { upload(binding, data, size); }};
+      if (Status s = epipolar::run(passContext(), targets, recorder, epipolar, light); !s) return s;
+    } else {
+      if (Status s = attachDestination(false); !s) return s;
+      if (!recorder.run(name, [&] { return exact::run(passContext(), in); })) return shaderError();
+    }
     in.blend = Blend::Add;
-    return wasFirst && destination.transmittance ? attach(frame, destination.inscatter, 0) : Status{};
+    first = false;
+    return {};
   };
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     const Light& light = frame.lights[i];
-    const std::string name = "exact light " + std::to_string(i);
+    const std::string name = (fast ? "light " : "exact light ") + std::to_string(i);
     if (light.colour == Rgb{0, 0, 0}) {
       recorder.skip(name, "the light is black");
       continue;
@@ -226,7 +270,7 @@ Status Effect::State::drawLights(const Frame& frame, const FrameTextures& textur
     in.variant.shadowArray = light.shadow.texture && light.shadow.array;
     in.variant.bilinear = light.shadow.texture && frame.settings.shadowFilter == ShadowFilter::Bilinear;
     in.variant.glass = light.glass.colour != 0;
-    if (Status s = draw(name); !s) return s;
+    if (Status s = draw(name, map); !s) return s;
   }
   if (!first) return {};
   exact::Variant& v = in.variant;
@@ -234,7 +278,8 @@ Status Effect::State::drawLights(const Frame& frame, const FrameTextures& textur
   v.shadowViews = 0;
   v.shadowArray = v.bilinear = v.glass = false;
   v.monochrome = true;
-  return draw("transmittance");
+  in.light = nullptr;
+  return draw("transmittance", {});
 }
 
 void Effect::State::upload(int binding, const void* data, std::size_t size) {
@@ -245,6 +290,27 @@ void Effect::State::upload(int binding, const void* data, std::size_t size) {
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
+
+Settings settingsOf(Profile profile) {
+  struct Row {
+    Technique technique;
+    int slices, samples;
+    float breakThreshold;
+  };
+  constexpr Row kRows[] = {
+      {Technique::Epipolar, 384, 512, 0.2F},   // performance
+      {Technique::Epipolar, 640, 768, 0.15F},  // balanced
+      {Technique::Epipolar, 1024, 1024, 0.1F}, // high
+      {Technique::Exact, 1024, 1024, 0.1F},    // reference
+  };
+  const Row& row = kRows[static_cast<int>(profile)];
+  Settings settings;
+  settings.technique = row.technique;
+  settings.slices = row.slices;
+  settings.samples = row.samples;
+  settings.breakThreshold = row.breakThreshold;
+  return settings;
+}
 
 Mat4 mat4(const float* columnMajor) {
   Mat4 m{};

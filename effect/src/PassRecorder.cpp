@@ -2,7 +2,10 @@
 
 namespace tyndall {
 
-void PassRecorder::beginFrame() { passes_.clear(); }
+void PassRecorder::beginFrame() {
+  passes_.clear();
+  fixupPixels_ = 0;
+}
 
 void PassRecorder::skip(const std::string& pass, const std::string& why) {
   passes_.push_back({{pass, why, 0}, {}, {}});

@@ -15,6 +15,8 @@ public:
 
   void beginFrame();
   void skip(const std::string& pass, const std::string& why);
+  void countFixup(std::uint64_t pixels) { fixupPixels_ += pixels; }
+  std::uint64_t fixupPixels() const { return fixupPixels_; }
 
   /// Runs a pass: times it and, where the context has debug groups, names it for GL debuggers.
   template <typename Pass>
@@ -40,6 +42,7 @@ private:
   PassTiming timing_;
   std::chrono::steady_clock::time_point start_;
   std::vector<Timed> passes_;
+  std::uint64_t fixupPixels_ = 0;
 };
 
 } // namespace tyndall

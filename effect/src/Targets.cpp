@@ -4,40 +4,73 @@ namespace tyndall {
 
 namespace {
 
+struct Format {
+  gl::Enum internal;
+  gl::Enum channels;
+  int bytes;
+};
+
+constexpr Format kR32{gl::R32F, gl::RED, 4}, kRg32{gl::RG32F, gl::RG, 8}, kRgba32{gl::RGBA32F, gl::RGBA, 16},
+    kRgba16{gl::RGBA16F, gl::RGBA, 8};
+
 struct Row {
   const char* name;
-  gl::Enum format;
-  int bytesPerTexel;
+  Format coloured;   // where three channels are needed
+  Format monochrome; // where one is enough
+  const char* size;
   const char* reason;
 };
 
 constexpr Row kRows[] = {
-    {"inscatter", gl::RGBA32F, 16, "sum over the lights where the engine wants its own transmittance and a composite"},
-    {"transmittance", gl::RGBA32F, 16, "where the engine wants its own inscatter and a composite"},
+    {"inscatter", kRgba32, kRgba32, "image", "where the engine wants its own transmittance and a composite"},
+    {"transmittance", kRgba32, kRgba32, "image", "where the engine wants its own inscatter and a composite"},
+    {"slice table", kRgba32, kRgba32, "slices x (2 + 2 views)", "the slices' geometry, computed in double"},
+    {"sample ends", kR32, kR32, "slices x samples", "distance along the camera ray; float, for breaks and the march"},
+    {"marks", kRgba32, kRgba32, "slices x samples / 64", "four masks of 16 samples, integers as floats"},
+    {"marched", kRgba16, kR32, "slices x (samples / 16 + 1)", "inscatter of the regular march samples"},
+    {"extra", kRgba16, kR32, "slices x samples", "inscatter of the march samples between, packed"},
+    {"epipolar inscatter", kRgba16, kR32, "slices x samples", "inscatter of all samples"},
+    {"row depths", kRgba32, kRgba32, "slices x texels / 4", "the shadow map along each slice"},
+    {"row nodes", kRg32, kRg32, "slices x texels / 16", "the tree's finest level, to gather the others from"},
+    {"row tree", kRg32, kRg32, "slices x nodes", "all levels of the min/max tree"},
 };
 
 } // namespace
 
-gl::Uint Targets::get(Target target, int width, int height) {
+gl::Uint Targets::get(Target target, int width, int height, bool coloured) {
   const auto index = static_cast<std::size_t>(target);
+  const Format& format = coloured ? kRows[index].coloured : kRows[index].monochrome;
   Slot& slot = slots_[index];
-  if (slot.texture && slot.width == width && slot.height == height) return slot.texture.name();
-  slot = Slot{gl::Texture(gl_), width, height};
+  if (slot.texture && slot.width == width && slot.height == height && slot.format == format.internal)
+    return slot.texture.name();
+  slot = Slot{gl::Texture(gl_), width, height, format.bytes, format.internal};
   gl_.ActiveTexture(gl::TEXTURE0);
   gl_.BindTexture(gl::TEXTURE_2D, slot.texture.name());
   gl_.TexParameteri(gl::TEXTURE_2D, gl::TEXTURE_MAX_LEVEL, 0);
-  gl_.TexImage2D(gl::TEXTURE_2D, 0, static_cast<gl::Int>(kRows[index].format), width, height, 0, gl::RGBA, gl::FLOAT,
+  gl_.TexImage2D(gl::TEXTURE_2D, 0, static_cast<gl::Int>(format.internal), width, height, 0, format.channels, gl::FLOAT,
                  nullptr);
   if (gl_.GetError() == gl::OUT_OF_MEMORY) slot = Slot{};
   return slot.texture.name();
 }
 
+gl::Uint Targets::stencil(int width, int height) {
+  if (stencil_ && stencilWidth_ == width && stencilHeight_ == height) return stencil_.name();
+  stencil_ = gl::Renderbuffer(gl_);
+  stencilWidth_ = width;
+  stencilHeight_ = height;
+  gl_.BindRenderbuffer(gl::RENDERBUFFER, stencil_.name());
+  gl_.RenderbufferStorage(gl::RENDERBUFFER, gl::STENCIL_INDEX8, width, height);
+  if (gl_.GetError() == gl::OUT_OF_MEMORY) stencil_ = gl::Renderbuffer();
+  return stencil_.name();
+}
+
 std::uint64_t Targets::bytes() const {
-  std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < slots_.size(); ++i)
-    if (slots_[i].texture)
-      sum += static_cast<std::uint64_t>(slots_[i].width) * static_cast<std::uint64_t>(slots_[i].height) *
-             static_cast<std::uint64_t>(kRows[i].bytesPerTexel);
+  const auto area = [](int width, int height) {
+    return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  };
+  std::uint64_t sum = stencil_ ? area(stencilWidth_, stencilHeight_) : 0;
+  for (const Slot& slot : slots_)
+    if (slot.texture) sum += area(slot.width, slot.height) * static_cast<std::uint64_t>(slot.bytesPerTexel);
   return sum;
 }
 

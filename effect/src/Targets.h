@@ -9,14 +9,30 @@
 
 namespace tyndall {
 
-enum class Target { Inscatter, Transmittance, Count };
+enum class Target {
+  Inscatter,
+  Transmittance,
+  SliceTable,
+  SampleEnds,
+  Marks,
+  Marched,
+  Extra,
+  EpipolarInscatter,
+  RowDepths,
+  RowNodes,
+  RowTree,
+  Count
+};
 
 class Targets {
 public:
   explicit Targets(const gl::Functions& gl) : gl_(gl) {}
 
-  /// The texture at the size of the image; 0 if GL is out of memory.
-  gl::Uint get(Target target, int width, int height);
+  /// The texture at a size; one that holds radiance has three channels if `coloured`. 0 if GL is out of memory.
+  gl::Uint get(Target target, int width, int height, bool coloured = true);
+
+  /// The stencil buffer of the image; 0 if GL is out of memory.
+  gl::Uint stencil(int width, int height);
 
   /// GL memory held, in bytes.
   std::uint64_t bytes() const;
@@ -26,9 +42,14 @@ private:
     gl::Texture texture;
     int width = 0;
     int height = 0;
+    int bytesPerTexel = 0;
+    gl::Enum format = 0;
   };
   const gl::Functions& gl_;
   std::array<Slot, static_cast<std::size_t>(Target::Count)> slots_;
+  gl::Renderbuffer stencil_;
+  int stencilWidth_ = 0;
+  int stencilHeight_ = 0;
 };
 
 } // namespace tyndall

@@ -31,6 +31,12 @@ Airlight airlightOf(Ray ray) {
 
 void litRange(Airlight light, inout float s0, inout float s1) {}
 
+// A length from s on over which the airlight changes by about a tenth.
+float steadyLength(Airlight light, float s) {
+  float sigma = max(extinction.r, max(extinction.g, extinction.b));
+  return 0.1 / max(sigma * (1.0 + abs(light.pathSlope)), 1e-30);
+}
+
 // integral of exp(-sigma (e0 + (s - s0) slope)) over a span of the given length: from its dimmer exponent, so that the
 // exponential never grows.
 Spectrum exponentialSpan(float e0, float slope, float len) {
@@ -62,6 +68,7 @@ struct Airlight {
   float height2; // squared distance of the ray to the light
 #if LIGHT_KIND == 2
   float axisFoot, axisSlope; // dot(axis, point - light) = axisFoot + (s - foot) axisSlope
+  float axisDistance;        // det(light - eye, ray, axis): b^2 + h^2 A = h^2 sin^2 - axisDistance^2, where less cancels
   vec3 sineFoot, sineSlope;  // cross(axis, point - light), likewise
   vec2 lit, inner;           // intervals of s inside the outer and inside the inner cone
 #endif
@@ -84,7 +91,7 @@ vec2 coneInterval(Airlight light, vec2 cosSinSquared) {
   float A = narrow ? cosSinSquared.y - dot(light.sineSlope, light.sineSlope) : v * v - c * c;
   float C = narrow ? cosSinSquared.y * light.height2 - dot(light.sineFoot, light.sineFoot) : b * b - c * c * light.height2;
   float B = b * v;
-  float discriminant = c * c * (b * b + light.height2 * A);
+  float discriminant = c * c * (cosSinSquared.y * light.height2 - light.axisDistance * light.axisDistance);
   if (!(discriminant > 0.0)) return kNone;
   // The stable pair of roots: q = -(B + sign(B) sqrt(D)), roots q / A and C / q.
   float q = -(B + (B < 0.0 ? -1.0 : 1.0) * sqrt(discriminant));
@@ -121,6 +128,7 @@ Airlight airlightOf(Ray ray) {
   vec3 footFromLight = ray.direction * light.foot - toLight;
   light.axisFoot = dot(lightDirection.xyz, footFromLight);
   light.axisSlope = dot(lightDirection.xyz, ray.direction);
+  light.axisDistance = dot(normal, lightDirection.xyz);
   light.sineFoot = cross(lightDirection.xyz, footFromLight);
   light.sineSlope = cross(lightDirection.xyz, ray.direction);
   light.lit = light.foot + coneInterval(light, vec2(cone.x, coneSinSquared.x));

@@ -14,22 +14,7 @@
 
 #if SHADOW_VIEWS > 0
 
-#if SHADOW_ARRAY
-uniform sampler2DArray shadowMap;
-#define TEXEL(map, texel, view) texelFetch(map, ivec3(texel, viewLayer[view].x), 0)
-#else
-uniform sampler2D shadowMap;
-#define TEXEL(map, texel, view) texelFetch(map, texel, 0)
-#endif
-#if GLASS
-#if SHADOW_ARRAY
-uniform sampler2DArray glassColour;
-uniform sampler2DArray glassDepth;
-#else
-uniform sampler2D glassColour;
-uniform sampler2D glassDepth;
-#endif
-#endif
+#include "lib/shadowMap.glsl"
 
 // The part of a ray that one view owns: from s0 to s1, in texels and depth from p0 to p1.
 struct ViewSegment {
@@ -76,21 +61,6 @@ float distanceAt(ViewSegment segment, float u) {
   float f = u * segment.w0 / (segment.w1 + u * (segment.w0 - segment.w1));
   return u >= 1.0 ? segment.s1 : segment.s0 + (segment.s1 - segment.s0) * f;
 }
-
-// Depth stored in a texel, growing away from the light; a texel without a caster never blocks.
-float casterDepth(ivec2 texel, int view) {
-  float depth = viewDepth[view].z * TEXEL(shadowMap, texel, view).r;
-  return depth >= viewDepth[view].y ? 3e38 : depth;
-}
-
-#if GLASS
-float paneDepth(ivec2 texel, int view) { return viewDepth[view].z * TEXEL(glassDepth, texel, view).r; }
-// NaN and negative values count as black, values above 1 as clear.
-vec3 paneTint(ivec2 texel, int view) {
-  vec3 tint = TEXEL(glassColour, texel, view).rgb;
-  return mix(vec3(0.0), min(tint, vec3(1.0)), greaterThanEqual(tint, vec3(0.0)));
-}
-#endif
 
 // A line through the cells of a view's map, from u = 0 to 1. A cell is a texel (nearest) or the square between four texel
 // centres (bilinear, coordinates shifted by half a texel so that both kinds have integer corners).
@@ -153,29 +123,17 @@ void stepCell(Line line, inout Walk walk, float u, float depth) {
 
 #if FILTER_BILINEAR
 
-// Integral over [u0, u1] of a texel centre's bilinear weight (1 - |x|)(1 - |y|) along the line, offsets linear in u:
-// a quadratic, for which two Gauss nodes are exact.
-float weightIntegral(vec2 offset0, vec2 slope, float u0, float u1) {
-  float middle = 0.5 * (u0 + u1), halfLength = 0.5 * (u1 - u0), node = 0.5773502691896257 * halfLength;
-  vec2 x = 1.0 - abs(offset0 + slope * (middle - node)), y = 1.0 - abs(offset0 + slope * (middle + node));
-  return halfLength * (x.x * x.y + y.x * y.y);
+// Bilinear weights of a cell's four corners at u, in the order of cornerDepths.
+vec4 cornerWeights(Line line, ivec2 cell, float u) {
+  vec2 f = line.origin.xy + line.slope.xy * u - vec2(cell), g = 1.0 - f;
+  return vec4(g.x * g.y, f.x * g.y, g.x * f.y, f.x * f.y);
 }
 
-vec4 cornerDepths(ivec2 cell, int view) {
-  ivec2 last = viewCounts.zw - 1;
-  ivec2 low = max(cell, ivec2(0)), high = min(cell + 1, last);
-  return vec4(casterDepth(low, view), casterDepth(ivec2(high.x, low.y), view), casterDepth(ivec2(low.x, high.y), view),
-              casterDepth(high, view));
+// The first of four crossings behind u, or `end`.
+float firstCrossing(vec4 crossings, float u, float end) {
+  vec4 ahead = mix(vec4(end), crossings, greaterThan(crossings, vec4(u)));
+  return min(end, min(min(ahead.x, ahead.y), min(ahead.z, ahead.w)));
 }
-
-#if GLASS
-vec4 cornerPanes(ivec2 cell, int view) {
-  ivec2 last = viewCounts.zw - 1;
-  ivec2 low = max(cell, ivec2(0)), high = min(cell + 1, last);
-  return vec4(paneDepth(low, view), paneDepth(ivec2(high.x, low.y), view), paneDepth(ivec2(low.x, high.y), view),
-              paneDepth(high, view));
-}
-#endif
 
 // True if the visibility of a whole cell, entered and left at the given receiver depths, is `current`: all four texels
 // lit, before their panes, or all dark.
@@ -195,36 +153,30 @@ bool isUnchanged(ivec2 cell, int view, float depthIn, float depthOut, Visibility
 Visibility pieceVisibility(Line line, ivec2 cell, int view, float u, inout float uEnd) {
   float inverseDepth = 1.0 / line.slope.z;
   vec4 depth = cornerDepths(cell, view);
+  uEnd = firstCrossing((depth - line.origin.z) * inverseDepth, u, uEnd);
 #if GLASS
+  ivec2 last = viewCounts.zw - 1, low = max(cell, ivec2(0)), high = min(cell + 1, last);
+  vec3 tints[4] = vec3[4](paneTint(low, view), paneTint(ivec2(high.x, low.y), view), paneTint(ivec2(low.x, high.y), view),
+                          paneTint(high, view));
   vec4 pane = cornerPanes(cell, view);
+  bvec4 clear = bvec4(tints[0] == vec3(1.0), tints[1] == vec3(1.0), tints[2] == vec3(1.0), tints[3] == vec3(1.0));
+  pane = mix(pane, vec4(3e38), clear); // clear glass is no glass
+  uEnd = firstCrossing((pane - line.origin.z) * inverseDepth, u, uEnd);
 #endif
-  for (int k = 0; k < 4; ++k) {
-    float crossing = (depth[k] - line.origin.z) * inverseDepth;
-    if (crossing > u && crossing < uEnd) uEnd = crossing;
+  vec4 receiver = vec4(line.origin.z + line.slope.z * (0.5 * (u + uEnd)));
+  bvec4 lit = greaterThanEqual(depth, receiver);
+  // The weights are quadratic along the line: two Gauss nodes give their mean exactly.
+  float middle = 0.5 * (u + uEnd), node = 0.5773502691896257 * 0.5 * (uEnd - u);
+  vec4 weights = 0.5 * (cornerWeights(line, cell, middle - node) + cornerWeights(line, cell, middle + node));
+  vec4 litWeights = mix(vec4(0.0), weights, lit);
 #if GLASS
-    crossing = (pane[k] - line.origin.z) * inverseDepth;
-    if (crossing > u && crossing < uEnd) uEnd = crossing;
-#endif
-  }
-  float receiver = line.origin.z + line.slope.z * (0.5 * (u + uEnd));
-  bvec4 lit = greaterThanEqual(depth, vec4(receiver));
-#if GLASS
-  if (all(lit) && !any(lessThan(pane, vec4(receiver)))) return vec3(1.0);
+  if (all(lit) && !any(lessThan(pane, receiver))) return vec3(1.0);
+  bvec4 behind = lessThan(pane, receiver);
+  return litWeights.x * (behind.x ? tints[0] : vec3(1.0)) + litWeights.y * (behind.y ? tints[1] : vec3(1.0)) +
+         litWeights.z * (behind.z ? tints[2] : vec3(1.0)) + litWeights.w * (behind.w ? tints[3] : vec3(1.0));
 #else
-  if (all(lit)) return 1.0;
+  return all(lit) ? 1.0 : dot(litWeights, vec4(1.0));
 #endif
-  Visibility sum = Visibility(0.0);
-  for (int k = 0; k < 4; ++k) {
-    ivec2 corner = cell + ivec2(k & 1, k >> 1);
-    float weight = lit[k] ? weightIntegral(line.origin.xy - vec2(corner), line.slope.xy, u, uEnd) : 0.0;
-#if GLASS
-    vec3 tint = paneTint(clamp(corner, ivec2(0), viewCounts.zw - 1), view);
-    sum += weight * (receiver > pane[k] ? tint : vec3(1.0));
-#else
-    sum += weight;
-#endif
-  }
-  return sum / max(uEnd - u, 1e-30); // guards a cell of no length, where the sum is 0 too
 }
 
 const int kPiecesPerCell = 5 + 4 * GLASS;
@@ -265,6 +217,12 @@ const int kPiecesPerCell = 2 + GLASS;
 
 #endif
 
+// The line parameter at a distance along the camera ray: the inverse of distanceAt.
+float parameterAt(ViewSegment segment, float s) {
+  float f = (s - segment.s0) / max(segment.s1 - segment.s0, 1e-30);
+  return f >= 1.0 ? 1.0 : segment.w1 * f / (segment.w0 * (1.0 - f) + segment.w1 * f);
+}
+
 // Takes the cell if the visibility is `current` all through it.
 bool takeCell(Line line, int view, inout Walk walk, Visibility current) {
   float u = cellEnd(line, walk);
@@ -283,7 +241,7 @@ Light segmentLight(Airlight light, ViewSegment segment) {
   Line line;
   Walk walk;
   startWalk(segment, line, walk);
-  int pieces = kPiecesPerCell * walk.left; // bounds the loops whatever the arithmetic does
+  int pieces = kPiecesPerCell * walk.left + 1000 * FILTER_BILINEAR; // bounds the loops whatever the arithmetic does
   Light sum = Light(0.0);
   Visibility current = Visibility(0.0);
   float from = 0.0;
@@ -299,6 +257,12 @@ Light segmentLight(Airlight light, ViewSegment segment) {
       }
       done = walk.left <= 0 || pieces <= 0;
       float uCell = cellEnd(line, walk), uEnd = uCell;
+#if FILTER_BILINEAR && LIGHT_KIND == 0
+      // A mean visibility stands for a piece only where the airlight hardly changes.
+      float s = distanceAt(segment, walk.u);
+      uEnd = clamp(parameterAt(segment, s + steadyLength(light, s)), walk.u, uCell);
+      if (!(uEnd > walk.u)) uEnd = uCell;
+#endif
       Visibility visibility = Visibility(0.0);
       if (!done) visibility = pieceVisibility(line, walk.cell, view, walk.u, uEnd);
       if (visibility != current) {
@@ -324,8 +288,14 @@ Light segmentLight(Airlight light, ViewSegment segment) {
 
 #endif
 
-// In-scattered light of [s0, s1] of the ray, shadowed: each view's own part walked, the rest lit or dark.
-Light shadowedLight(Airlight light, Ray ray, float s0, float s1) {
+// What a view's own segment contributes: texel by texel (segmentLight), or along a slice's row (rowLight).
+#if SHADOW_VIEWS > 0
+Light ownedLight(Airlight light, ViewSegment segment, int slice);
+#endif
+
+// In-scattered light of [s0, s1] of the ray, shadowed: each view's own part walked, the rest lit or dark. only >= 0: just
+// that view's part; outside: what is in no view, too. The slice is for ownedLight.
+Light shadowedLight(Airlight light, Ray ray, float s0, float s1, int only, bool outside, int slice) {
   if (!(s1 > s0)) return Light(0.0);
 #if SHADOW_VIEWS == 0
   return Light(airlight(light, s0, s1));
@@ -355,8 +325,9 @@ Light shadowedLight(Airlight light, Ray ray, float s0, float s1) {
         end = min(end, owned[i].x);
       }
     }
-    if (owner >= 0 && owner < kViews) sum += segmentLight(light, viewSegment(owner, ray, s, end));
-    else if (owner >= kViews || litOutside) sum += Light(airlight(light, s, end));
+    bool inView = owner >= 0 && owner < kViews;
+    if (inView && (only < 0 || owner == only)) sum += ownedLight(light, viewSegment(owner, ray, s, end), slice);
+    if (outside && !inView && (owner >= 0 || litOutside)) sum += Light(airlight(light, s, end));
     s = end;
   }
   return sum;

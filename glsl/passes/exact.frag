@@ -9,6 +9,9 @@
 #if LIGHT_KIND < 3
 #include "lib/airlight.glsl"
 #include "lib/shadow.glsl"
+#if SHADOW_VIEWS > 0
+Light ownedLight(Airlight light, ViewSegment segment, int slice) { return segmentLight(light, segment); }
+#endif
 #endif
 
 #if COMPOSITE
@@ -36,7 +39,7 @@ vec3 inscatterOf(Ray ray, float ends[kMaxSamples], int samples) {
     float s0 = from, s1 = min(ends[k], extinction.w);
     from = max(from, s1);
     litRange(light, s0, s1);
-    sum += shadowedLight(light, ray, s0, s1) * (float(samples - k) / float(samples));
+    sum += shadowedLight(light, ray, s0, s1, -1, true, 0) * (float(samples - k) / float(samples));
   }
   return min(lightColour.rgb * vec3(sum), limits.xxx);
 #else

@@ -183,6 +183,13 @@ vec3 lightThrough(vec3 normal, float cosTheta, float lightDistance) {
   return visibility * glassTintAt(view, coordinates);
 }
 
+/// Fades the light out where the face turns away from it though the shading normal does not: else the edge of the
+/// lit side would show the triangles. Chiang et al., "Taming the Shadow Terminator" (SIGGRAPH 2019 Talks), equation 3.
+float terminator(float cosine, float faceCosine, float normalCosine) {
+  float g = min(1.0, faceCosine / (cosine * max(normalCosine, 1e-3)));
+  return g * (1.0 + g * (1.0 - g));
+}
+
 /// Irradiance on the surface; shadingNormal and faceNormal point to the viewer's side.
 vec3 irradiance(vec3 shadingNormal, vec3 faceNormal) {
   vec3 toLight = -lightDirection;
@@ -202,12 +209,17 @@ vec3 irradiance(vec3 shadingNormal, vec3 faceNormal) {
   float faceCosine = dot(faceNormal, toLight);
   float cosine = dot(shadingNormal, toLight);
   if (faceCosine <= 0.0 || cosine <= 0.0 || strength == vec3(0.0)) return vec3(0.0);
-  return strength * cosine * lightThrough(faceNormal, faceCosine, lightDistance);
+  strength *= cosine * terminator(cosine, faceCosine, dot(shadingNormal, faceNormal));
+  return strength * lightThrough(faceNormal, faceCosine, lightDistance);
 }
 
-/// Radiance of a surface under the sky, in place of true ambient occlusion: an upward surface sees two fifths of
-/// the sky, a downward one 3/20, by way of the ground.
-vec3 ambient(vec3 albedo, vec3 normal) { return albedo * skyRadiance * mix(0.15, 0.4, 0.5 + 0.5 * normal.y); }
+/// Radiance of a surface under the sky, in place of true ambient occlusion: a surface that looks to the brightest part
+/// of the sky sees two fifths of it, one that looks away 3/20, by way of the ground. That part is off the zenith, so
+/// that upright surfaces differ and keep their form in the shade.
+vec3 ambient(vec3 albedo, vec3 normal) {
+  const vec3 brightest = vec3(0.36, 0.86, 0.36);
+  return albedo * skyRadiance * mix(0.15, 0.4, 0.5 + 0.5 * dot(normal, brightest));
+}
 
 void main() {
   vec4 texel = texture(baseTexture, surfaceUv);

@@ -7,6 +7,7 @@
 #include <ImfOutputFile.h>
 #include <algorithm>
 #include <cmath>
+#include <glm/glm.hpp>
 #include <png.h>
 #include <scene/Error.h>
 #include <scene/FileIo.h>
@@ -64,26 +65,25 @@ std::uint8_t toSrgb8(float linear) {
 
 /// The largest channel takes the film curve and the others keep their ratio to it, so that hues hold. What the curve
 /// took off the peak then fades the colour to white, as in Khronos' PBR Neutral tone mapper.
-void toneMapPixel(const float* rgb, float exposure, std::uint8_t* bytes) {
+/// Display-linear, 0 to 1.
+glm::vec3 toneMapPixel(const float* rgb, float exposure) {
   constexpr float kBrightest = 1e6F; // keeps infinities out of the ratios
   constexpr float kDesaturation = 0.15F;
   float scaled[3];
   for (int c = 0; c < 3; ++c) {
     const float value = rgb[c] * exposure;
-    if (std::isnan(value)) {
-      bytes[0] = bytes[2] = 255;
-      bytes[1] = 0;
-      return;
-    }
+    if (std::isnan(value)) return {1, 0, 1};
     scaled[c] = std::clamp(value, 0.0F, kBrightest);
   }
   const float peak = std::max({scaled[0], scaled[1], scaled[2]});
   const float mapped = filmic(peak);
   const float white = 1 - 1 / (kDesaturation * std::max(peak - mapped, 0.0F) + 1);
+  glm::vec3 colour(0);
   for (int c = 0; c < 3; ++c) {
-    const float colour = peak > 0 ? scaled[c] / peak * mapped : 0;
-    bytes[c] = toSrgb8(colour + (mapped - colour) * white);
+    const float pure = peak > 0 ? scaled[c] / peak * mapped : 0;
+    colour[c] = pure + (mapped - pure) * white;
   }
+  return colour;
 }
 
 } // namespace
@@ -171,11 +171,22 @@ void writePng(const std::filesystem::path& file, int width, int height, const st
   });
 }
 
-std::vector<std::uint8_t> toneMap(const float* rgb, int width, int height, float exposure) {
-  std::vector<std::uint8_t> bytes(3 * pixelCount(width, height));
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    toneMapPixel(rgb + i, exposure, &bytes[i]);
-  }
+std::vector<std::uint8_t> toneMap(const float* rgb, int width, int height, float exposure, int supersample) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(3 * pixelCount(width, height));
+  const std::size_t rowLength = pixelCount(width, supersample);
+  for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y)
+    for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
+      glm::vec3 sum(0);
+      for (int i = 0; i < supersample * supersample; ++i) {
+        const std::size_t row = y * supersample + i / supersample;
+        const std::size_t column = x * supersample + i % supersample;
+        sum += toneMapPixel(rgb + 3 * (row * rowLength + column), exposure);
+      }
+      sum /= static_cast<float>(supersample * supersample);
+      for (int c = 0; c < 3; ++c)
+        bytes.push_back(toSrgb8(sum[c]));
+    }
   return bytes;
 }
 

@@ -37,6 +37,8 @@ void writePng(const std::filesystem::path& file, int width, int height, const st
 
 /// Linear radiance, three floats a pixel, to sRGB bytes in the same order: exposure, a filmic curve, the sRGB transfer
 /// function. Hues hold while highlights fade to white. A pixel with a NaN becomes magenta.
-std::vector<std::uint8_t> toneMap(const float* rgb, int width, int height, float exposure = 1);
+/// The result has width x height pixels, each the mean of supersample x supersample pixels of `rgb` after the curve, as
+/// a display would show them: bright edges are smooth, too.
+std::vector<std::uint8_t> toneMap(const float* rgb, int width, int height, float exposure = 1, int supersample = 1);
 
 } // namespace host

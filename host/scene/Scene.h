@@ -47,28 +47,28 @@ enum class AlphaMode { Opaque, Mask, Blend };
 
 struct Material {
   std::string name;
-  glm::vec4 baseColour{1};          ///< linear factor, alpha in w
-  int texture = -1;                 ///< index into Scene::textures, or -1
+  glm::vec4 baseColour{1}; ///< linear factor, alpha in w
+  int texture = -1;        ///< index into Scene::textures, or -1
   AlphaMode alphaMode = AlphaMode::Opaque;
   float alphaCutoff = 0.5F;
-  float transmission = 0;           ///< KHR_materials_transmission's factor
-  glm::vec3 emission{0};            ///< linear radiance
+  float transmission = 0;                           ///< KHR_materials_transmission's factor
+  glm::vec3 emission{0};                            ///< linear radiance
   bool isGlass() const { return transmission > 0; } ///< casts no shadow, tints the light by baseColour * transmission
 };
 
 struct Camera {
   std::string name;
   bool orthographic = false;
-  double verticalFov = 0.8;  ///< radians, perspective
-  double halfHeight = 1;     ///< world units, orthographic
+  double verticalFov = 0.8; ///< radians, perspective
+  double halfHeight = 1;    ///< world units, orthographic
   double nearPlane = 0.1;
-  double farPlane = 0;       ///< 0: infinite (perspective)
+  double farPlane = 0; ///< 0: infinite (perspective)
 };
 
 struct Light {
   std::string name;
   tyndall::LightKind kind = tyndall::LightKind::Directional;
-  glm::vec3 colour{1};       ///< colour x intensity: irradiance or radiant intensity
+  glm::vec3 colour{1}; ///< colour x intensity: irradiance or radiant intensity
   double range = tyndall::kInfinity;
   double innerConeAngle = 0;
   double outerConeAngle = 0.7853981633974483;
@@ -93,8 +93,8 @@ struct AnimationChannel {
   int node = 0;
   AnimationPath path = AnimationPath::Translation;
   Interpolation interpolation = Interpolation::Linear;
-  std::vector<float> times;       ///< seconds, increasing
-  std::vector<glm::vec4> values;  ///< one a time (CubicSpline: in-tangent, value, out-tangent)
+  std::vector<float> times;      ///< seconds, increasing
+  std::vector<glm::vec4> values; ///< one a time (CubicSpline: in-tangent, value, out-tangent)
 };
 
 struct Scene {

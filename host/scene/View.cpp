@@ -40,39 +40,46 @@ tyndall::Camera compose(const glm::dmat4& viewFromWorld, const glm::dmat4& clipF
   return camera;
 }
 
-/// A room shows the front of its walls to whoever stands in its middle, a solid thing the back of its skin. A shell
-/// that was modelled from outside is told from a solid thing by its windows.
-bool isRoom(const Scene& scene, const WorldGeometry& geometry, const glm::dvec3& middle) {
+/// What the middle of a scene sees in 26 directions.
+struct Surroundings {
+  int directions = 0;
   int hits = 0;
   int fronts = 0;
-  int directions = 0;
+  bool isClosed() const { return hits == directions; }
+};
+
+Surroundings surroundingsOf(const WorldGeometry& geometry, const glm::dvec3& middle) {
+  Surroundings seen;
   for (int x = -1; x <= 1; ++x)
     for (int y = -1; y <= 1; ++y)
       for (int z = -1; z <= 1; ++z) {
         if (x == 0 && y == 0 && z == 0) continue;
         const auto hit = firstHit(geometry, middle, glm::normalize(glm::dvec3(x, y, z)));
-        hits += hit ? 1 : 0;
-        fronts += hit && hit->front ? 1 : 0;
-        ++directions;
+        seen.hits += hit ? 1 : 0;
+        seen.fronts += hit && hit->front ? 1 : 0;
+        ++seen.directions;
       }
+  return seen;
+}
+
+/// A room shows the front of its walls to whoever stands in its middle, a solid thing the back of its skin. A shell
+/// that was modelled from outside is told from a solid thing by its windows.
+bool isRoom(const Scene& scene, const Surroundings& seen) {
   const bool hasWindows = std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
     return material.isGlass() || material.alphaMode == AlphaMode::Blend;
   });
-  return 3 * fronts >= 2 * directions || (hits == directions && hasWindows);
+  return 3 * seen.fronts >= 2 * seen.directions || (seen.isClosed() && hasWindows);
 }
 
-/// How far from the middle an eye has to be for the bounds to fill its view; `towards` is the unit direction to the
+/// How far from the middle an eye has to be for the geometry to fill its view; `towards` is the unit direction to the
 /// eye.
-double distanceToFit(const Bounds& bounds, const glm::dvec3& towards, double tanHalfWidth, double tanHalfHeight) {
+double distanceToFit(const WorldGeometry& geometry, const glm::dvec3& middle, const glm::dvec3& towards,
+                     double tanHalfWidth, double tanHalfHeight) {
   constexpr double kMargin = 1.05;
-  const glm::dvec3 middle = 0.5 * (bounds.low + bounds.high);
   const glm::dmat3 viewFromWorld(viewLooking({0, 0, 0}, -towards));
   double distance = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec3 world((corner & 1) != 0 ? bounds.high.x : bounds.low.x,
-                           (corner & 2) != 0 ? bounds.high.y : bounds.low.y,
-                           (corner & 4) != 0 ? bounds.high.z : bounds.low.z);
-    const glm::dvec3 view = viewFromWorld * (world - middle);
+  for (const glm::dvec3& point : geometry.points) {
+    const glm::dvec3 view = viewFromWorld * (point - middle);
     distance =
         std::max({distance, view.z + std::abs(view.x) / tanHalfWidth, view.z + std::abs(view.y) / tanHalfHeight});
   }
@@ -142,7 +149,7 @@ tyndall::Camera makeDefaultCamera(const Scene& scene, const std::vector<glm::dma
   const WorldGeometry geometry = worldGeometry(scene, worldFromNode);
   glm::dvec3 eye;
   double fov = kDefaultFov;
-  if (isRoom(scene, geometry, middle)) {
+  if (isRoom(scene, surroundingsOf(geometry, middle))) {
     const glm::dvec3 along = size.x >= size.z ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
     const auto wall = firstHit(geometry, middle, along);
     eye = middle + along * (wall ? 0.9 * wall->distance : 0.4 * glm::dot(size, along));
@@ -150,7 +157,7 @@ tyndall::Camera makeDefaultCamera(const Scene& scene, const std::vector<glm::dma
   } else {
     const glm::dvec3 towards = glm::normalize(glm::dvec3(1, 0.6, 1.2));
     const double tangent = std::tan(0.5 * kDegrees * fov);
-    eye = middle + towards * distanceToFit(bounds, towards, tangent * aspect, tangent);
+    eye = middle + towards * distanceToFit(geometry, middle, towards, tangent * aspect, tangent);
   }
   notes.push_back(fmt::format("scene has no camera: looking from {} to {}", text(eye), text(middle)));
   return makeLookAt(scene, worldFromNode, eye, middle, fov, aspect, options);
@@ -195,10 +202,20 @@ std::vector<tyndall::Light> makeLights(const Scene& scene, const std::vector<glm
   return lights;
 }
 
-glm::vec3 skyOf(const Scene& scene, Notes& notes) {
-  if (!scene.lights.empty() || scene.skyRadiance != glm::vec3(0)) return scene.skyRadiance;
-  const glm::vec3 sky(0.08F, 0.1F, 0.13F);
-  notes.push_back(fmt::format("scene has no light: its sky's radiance is {}", text(sky)));
+glm::vec3 skyOf(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode,
+                const std::vector<tyndall::Light>& lights, Notes& notes) {
+  if (scene.skyRadiance != glm::vec3(0)) return scene.skyRadiance;
+  constexpr glm::vec3 kClearDay(0.025F, 0.033F, 0.048F); // 1/sr, of the sun's irradiance
+  constexpr float kIndoors = 0.12F;
+  glm::vec3 sky(0);
+  for (const tyndall::Light& light : lights)
+    if (light.kind == tyndall::LightKind::Directional)
+      sky += kClearDay * glm::vec3(light.colour[0], light.colour[1], light.colour[2]);
+  if (sky == glm::vec3(0)) return sky;
+  const Bounds bounds = boundsOf(scene, worldFromNode);
+  const Surroundings seen = surroundingsOf(worldGeometry(scene, worldFromNode), 0.5 * (bounds.low + bounds.high));
+  if (seen.isClosed() && isRoom(scene, seen)) sky *= kIndoors;
+  notes.push_back(fmt::format("scene has no sky: its radiance is {}, after the sun", text(sky)));
   return sky;
 }
 
@@ -206,6 +223,7 @@ tyndall::Medium mediumOf(const Scene& scene, const Bounds& bounds, Notes& notes)
   if (scene.medium) return *scene.medium;
   constexpr double kTransmittance = 0.75;
   constexpr double kScatteredShare = 0.95;
+  constexpr double kDepth = 2; // diagonals; an endless haze would outshine what stands in it
   const double diagonal = glm::distance(bounds.low, bounds.high);
   const double extinction = -std::log(kTransmittance) / (diagonal > 0 ? diagonal : 1);
   const auto scattering = static_cast<float>(kScatteredShare * extinction);
@@ -213,8 +231,10 @@ tyndall::Medium mediumOf(const Scene& scene, const Bounds& bounds, Notes& notes)
   tyndall::Medium medium;
   medium.constituents = {{{scattering, scattering, scattering}, tyndall::Phase::HenyeyGreenstein, 0.5F}};
   medium.absorption = {absorption, absorption, absorption};
-  notes.push_back(fmt::format("scene has no medium: a haze of extinction {:.4g} a unit, {:.0f} % scattered, g = 0.5",
-                              extinction, 100 * kScatteredShare));
+  if (diagonal > 0) medium.farDistance = kDepth * diagonal;
+  notes.push_back(fmt::format("scene has no medium: a haze of extinction {:.4g} a unit, {:.0f} % scattered, g = 0.5, "
+                              "ends at {:.4g} before the sky",
+                              extinction, 100 * kScatteredShare, medium.farDistance));
   return medium;
 }
 

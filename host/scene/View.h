@@ -46,10 +46,13 @@ std::vector<tyndall::Light> makeLights(const Scene& scene, const std::vector<glm
 /// Sunlight of the colour that a scene without lights gets. direction: where the light travels to.
 tyndall::Light makeSun(const glm::dvec3& direction);
 
-/// The scene's sky, or that of a clear day (noted) if it has neither sky nor lights.
-glm::vec3 skyOf(const Scene& scene, Notes& notes);
+/// The scene's sky, or if it has none that of a clear day under the directional lights (noted); black without those. It
+/// is dimmed in a closed room: the host's ambient light knows no walls.
+glm::vec3 skyOf(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode,
+                const std::vector<tyndall::Light>& lights, Notes& notes);
 
-/// The scene's medium, or a thin haze scaled to the bounds (noted): 3/4 of the light crosses their diagonal.
+/// The scene's medium, or a thin haze scaled to the bounds (noted): 3/4 of the light crosses their diagonal, and the
+/// haze ends two diagonals away.
 tyndall::Medium mediumOf(const Scene& scene, const Bounds& bounds, Notes& notes);
 
 } // namespace host

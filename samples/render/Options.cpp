@@ -2,32 +2,38 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <scene/Error.h>
+#include <string_view>
 #include <system_error>
 
 namespace render {
 
 namespace {
 
+constexpr std::array<std::string_view, 4> kProfiles = {"performance", "balanced", "high", "reference"};
+constexpr std::array<std::string_view, 3> kTechniques = {"exact", "tree", "epipolar"};
 constexpr int kMaxFrame = 999999;
 constexpr int kMaxRepeat = 10000;
+constexpr int kMaxSupersample = 8;
 constexpr const char* kFramePlace = "%04d";
 
 constexpr const char* kFooter = R"(
 Files
   EXR: 32-bit float; R G B (composite), inscatter.{R,G,B}, transmittance.{R,G,B}, Z (distance along the view
   axis in world units; 1e30 where there is only sky). PNG: the tone-mapped composite.
+  With --supersample the PNG is the mean after tone mapping; the EXR keeps every pixel that was rendered.
   Files are written beside their name and renamed when complete.
 Exit status
   0: done; 1: failed, with one line that names file and cause; 2: wrong usage.)";
 
 /// The options as typed. Numbers are parsed here and not by CLI11, so that nothing but a whole number passes for one.
 struct Typed {
-  std::string scene, camera, eye, target, fov, sun, size, profile, technique, filter, medium, shadowSize, cascades,
-      frames, repeat, context, stats, exposure;
+  std::string scene, camera, eye, target, fov, sun, size, supersample, profile, technique, filter, medium, shadowSize,
+      cascades, frames, repeat, context, stats, exposure;
   std::vector<std::string> out;
   bool reversedDepth = false;
 };
@@ -95,7 +101,7 @@ Sun parseSun(const std::string& value) {
   return sun;
 }
 
-void readSize(const std::string& value, Options& options) {
+void readSize(const std::string& value, const std::string& supersample, Options& options) {
   const std::string rule = fmt::format("must be WIDTHxHEIGHT, each from 1 to {}", tyndall::kMaxImageSize);
   const std::vector<std::string> parts = split(value, 'x');
   if (parts.size() != 2) fail("--size", value, rule);
@@ -105,6 +111,9 @@ void readSize(const std::string& value, Options& options) {
     fail("--size", value, rule);
   options.width = *width;
   options.height = *height;
+  options.supersample = parseInt("--supersample", supersample, 1, kMaxSupersample);
+  if (std::max(renderedWidth(options), renderedHeight(options)) > tyndall::kMaxImageSize)
+    fail("--supersample", supersample, fmt::format("makes more than {} pixels a side", tyndall::kMaxImageSize));
 }
 
 FrameRange parseFrames(const std::string& value) {
@@ -142,8 +151,12 @@ void readView(const Typed& typed, Options& options) {
 }
 
 void readQuality(const Typed& typed, Options& options) {
-  if (typed.profile != options.profile) fail("--profile", typed.profile, "must be reference");
-  if (typed.technique != options.technique) fail("--technique", typed.technique, "must be exact");
+  if (std::find(kProfiles.begin(), kProfiles.end(), typed.profile) == kProfiles.end())
+    fail("--profile", typed.profile, "must be performance, balanced, high or reference");
+  options.profile = typed.profile;
+  options.technique = !typed.technique.empty() ? typed.technique : typed.profile == "reference" ? "exact" : "epipolar";
+  if (std::find(kTechniques.begin(), kTechniques.end(), options.technique) == kTechniques.end())
+    fail("--technique", options.technique, "must be exact, tree or epipolar");
   if (typed.filter == "bilinear")
     options.shadowFilter = tyndall::ShadowFilter::Bilinear;
   else if (typed.filter != "nearest")
@@ -181,8 +194,12 @@ void addOptions(CLI::App& app, Typed& typed) {
   app.add_option("--sun", typed.sun, "a sun instead of the scene's lights: where its light travels to, and irradiance")
       ->type_name("DX,DY,DZ[,R,G,B]");
   app.add_option("--size", typed.size, "pixels (default 1280x720)")->type_name("WxH");
-  app.add_option("--profile", typed.profile, "quality: reference (default)")->type_name("NAME");
-  app.add_option("--technique", typed.technique, "exact (default)")->type_name("NAME");
+  app.add_option("--supersample", typed.supersample, "render N x N pixels for each one of the picture (default 1)")
+      ->type_name("N");
+  app.add_option("--profile", typed.profile, "quality: performance, balanced, high or reference (default)")
+      ->type_name("NAME");
+  app.add_option("--technique", typed.technique, "exact, tree or epipolar; by the profile if not given")
+      ->type_name("NAME");
   app.add_option("--filter", typed.filter, "of the shadow map: nearest (default) or bilinear")->type_name("NAME");
   app.add_option("--medium", typed.medium, "the medium, instead of the scene's")->type_name("M.json");
   app.add_option("--shadow-size", typed.shadowSize, "texels per side of a shadow map (default 4096)")->type_name("N");
@@ -206,7 +223,7 @@ Options fromTyped(const Typed& typed) {
   options.scene = typed.scene;
   readView(typed, options);
   if (!typed.sun.empty()) options.sun = parseSun(typed.sun);
-  readSize(typed.size, options);
+  readSize(typed.size, typed.supersample, options);
   readQuality(typed, options);
   if (!typed.medium.empty()) options.medium = typed.medium;
   if (!typed.frames.empty()) options.frames = parseFrames(typed.frames);
@@ -228,8 +245,8 @@ Options fromTyped(const Typed& typed) {
 Options parseOptions(int argc, const char* const* argv) {
   Typed typed;
   typed.size = "1280x720";
+  typed.supersample = "1";
   typed.profile = "reference";
-  typed.technique = "exact";
   typed.filter = "nearest";
   typed.shadowSize = "4096";
   typed.cascades = "1";

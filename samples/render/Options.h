@@ -36,6 +36,7 @@ struct Options {
   std::optional<Sun> sun;
   int width = 1280;
   int height = 720;
+  int supersample = 1; ///< pixels rendered for one of the picture, along each side
   std::string profile = "reference";
   std::string technique = "exact";
   tyndall::ShadowFilter shadowFilter = tyndall::ShadowFilter::Nearest;
@@ -50,6 +51,10 @@ struct Options {
   std::optional<std::filesystem::path> stats;
   std::optional<double> exposureStops; ///< none: by the picture's brightness
 };
+
+/// Pixels per side that are rendered.
+inline int renderedWidth(const Options& options) { return options.width * options.supersample; }
+inline int renderedHeight(const Options& options) { return options.height * options.supersample; }
 
 /// The command line breaks a rule: one line that names option, value and rule.
 class UsageError : public std::runtime_error {

@@ -58,14 +58,14 @@ std::int64_t marchedSamples(const tyndall::Statistics& statistics, const Options
       std::count_if(statistics.passes.begin(), statistics.passes.end(), [](const tyndall::PassStatistics& pass) {
         return pass.skipped.empty() && pass.name.rfind("exact light", 0) == 0;
       });
-  return static_cast<std::int64_t>(marches) * options.width * options.height;
+  return static_cast<std::int64_t>(marches) * renderedWidth(options) * renderedHeight(options);
 }
 
 nlohmann::ordered_json statisticsOf(const FrameStatistics& frame, const Options& options, const std::string& driver) {
   const Measurement& measurement = frame.measurement;
   return {{"driver", driver},
           {"context", host::nameOf(options.context)},
-          {"size", {options.width, options.height}},
+          {"size", {renderedWidth(options), renderedHeight(options)}},
           {"technique", options.technique},
           {"profile", options.profile},
           {"effect_ms",
@@ -75,7 +75,7 @@ nlohmann::ordered_json statisticsOf(const FrameStatistics& frame, const Options&
           {"bytes", measurement.statistics.bytes},
           {"passes", passesOf(measurement.statistics)},
           {"marched_samples", marchedSamples(measurement.statistics, options)},
-          {"fixup_pixels", 0}};
+          {"fixup_pixels", measurement.statistics.fixupPixels}};
 }
 
 } // namespace
@@ -120,12 +120,12 @@ float exposureOf(const Picture& picture) {
 
 void writePicture(const std::filesystem::path& file, const Picture& picture, const Options& options, float exposure) {
   if (std::tolower(static_cast<unsigned char>(file.extension().string().at(1))) == 'e') {
-    host::writeExr(file, imageOf(picture, options.width, options.height));
+    host::writeExr(file, imageOf(picture, renderedWidth(options), renderedHeight(options)));
     return;
   }
-  const std::vector<float> rgb = topDownRgb(picture.composite, options.width, options.height);
+  const std::vector<float> rgb = topDownRgb(picture.composite, renderedWidth(options), renderedHeight(options));
   host::writePng(file, options.width, options.height,
-                 host::toneMap(rgb.data(), options.width, options.height, exposure));
+                 host::toneMap(rgb.data(), options.width, options.height, exposure, options.supersample));
 }
 
 void writeStatistics(const std::filesystem::path& file, const Options& options, const std::string& driver,

@@ -25,10 +25,23 @@ tyndall::PassTiming timingFor(const std::string& driver) {
 
 host::RenderTargetOptions targetOptions(const Options& options) {
   host::RenderTargetOptions target;
-  target.width = options.width;
-  target.height = options.height;
+  target.width = renderedWidth(options);
+  target.height = renderedHeight(options);
   target.colourFormat = GL_RGBA32F;
   return target;
+}
+
+tyndall::Settings settingsOf(const Options& options) {
+  const auto profile = options.profile == "performance" ? tyndall::Profile::Performance
+                       : options.profile == "balanced"  ? tyndall::Profile::Balanced
+                       : options.profile == "high"      ? tyndall::Profile::High
+                                                        : tyndall::Profile::Reference;
+  tyndall::Settings settings = tyndall::settingsOf(profile);
+  settings.technique = options.technique == "exact"  ? tyndall::Technique::Exact
+                       : options.technique == "tree" ? tyndall::Technique::Tree
+                                                     : tyndall::Technique::Epipolar;
+  settings.shadowFilter = options.shadowFilter;
+  return settings;
 }
 
 tyndall::ClipDepth clipDepthOf(const Options& options) {
@@ -64,8 +77,8 @@ FrameRenderer::FrameRenderer(const Options& options)
     : options_(options), context_(host::Context::create(options.context)), scene_(host::loadScene(options.scene)),
       notes_(scene_.notes), sceneRenderer_(std::make_unique<host::SceneRenderer>(scene_)),
       surfaces_(targetOptions(options)), composite_(targetOptions(options)),
-      inscatter_(host::makeTexture2D(GL_RGBA32F, options.width, options.height)),
-      transmittance_(host::makeTexture2D(GL_RGBA32F, options.width, options.height)) {
+      inscatter_(host::makeTexture2D(GL_RGBA32F, surfaces_.width(), surfaces_.height())),
+      transmittance_(host::makeTexture2D(GL_RGBA32F, surfaces_.width(), surfaces_.height())) {
   tyndall::Config config;
   config.loader = context_->loader();
   config.timing = timingFor(context_->driver());
@@ -75,14 +88,13 @@ FrameRenderer::FrameRenderer(const Options& options)
 
   const host::Bounds bounds = host::boundsOf(scene_, host::poseAt(scene_, 0));
   frame_.medium = options.medium ? host::loadMedium(*options.medium) : host::mediumOf(scene_, bounds, notes_);
-  sky_ = host::skyOf(scene_, notes_);
-  frame_.width = options.width;
-  frame_.height = options.height;
+  frame_.width = surfaces_.width();
+  frame_.height = surfaces_.height();
   frame_.colour = composite_.colour();
   frame_.depth.texture = surfaces_.depth();
   frame_.output.inscatter = inscatter_.name();
   frame_.output.transmittance = transmittance_.name();
-  frame_.settings.shadowFilter = options.shadowFilter;
+  frame_.settings = settingsOf(options);
 }
 
 tyndall::Camera FrameRenderer::makeCamera(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) const {
@@ -120,8 +132,8 @@ void FrameRenderer::restoreColour() const {
   functions.BindFramebuffer(GL_READ_FRAMEBUFFER, surfaces_.framebuffer());
   functions.BindFramebuffer(GL_DRAW_FRAMEBUFFER, composite_.framebuffer());
   functions.Disable(GL_SCISSOR_TEST);
-  functions.BlitFramebuffer(0, 0, options_.width, options_.height, 0, 0, options_.width, options_.height,
-                            GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  functions.BlitFramebuffer(0, 0, frame_.width, frame_.height, 0, 0, frame_.width, frame_.height, GL_COLOR_BUFFER_BIT,
+                            GL_NEAREST);
   functions.BindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
@@ -160,9 +172,10 @@ Measurement FrameRenderer::render(int frame) {
   host::Notes notes;
   frame_.camera = makeCamera(worldFromNode, notes);
   frame_.lights = makeLights(worldFromNode, notes);
+  const glm::vec3 sky = host::skyOf(scene_, worldFromNode, frame_.lights, notes);
   renderShadowMaps(worldFromNode, notes);
   addOnce(notes_, notes);
-  sceneRenderer_->renderScene(worldFromNode, frame_.camera, frame_.lights, surfaces_, sky_, &frame_.medium);
+  sceneRenderer_->renderScene(worldFromNode, frame_.camera, frame_.lights, surfaces_, sky, &frame_.medium);
   Measurement measurement = measure();
   throwGlErrors();
   return measurement;
@@ -170,11 +183,11 @@ Measurement FrameRenderer::render(int frame) {
 
 Picture FrameRenderer::readPicture() const {
   Picture picture;
-  picture.composite = host::readColour(composite_.colour(), options_.width, options_.height);
-  picture.inscatter = host::readColour(inscatter_.name(), options_.width, options_.height);
-  picture.transmittance = host::readColour(transmittance_.name(), options_.width, options_.height);
+  picture.composite = host::readColour(composite_.colour(), frame_.width, frame_.height);
+  picture.inscatter = host::readColour(inscatter_.name(), frame_.width, frame_.height);
+  picture.transmittance = host::readColour(transmittance_.name(), frame_.width, frame_.height);
   picture.z =
-      viewZ(host::readDepth(surfaces_.depth(), options_.width, options_.height), frame_.camera, options_.reversedDepth);
+      viewZ(host::readDepth(surfaces_.depth(), frame_.width, frame_.height), frame_.camera, options_.reversedDepth);
   throwGlErrors();
   return picture;
 }

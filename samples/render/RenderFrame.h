@@ -66,7 +66,6 @@ private:
   std::unique_ptr<host::Context> context_; ///< outlives all that has GL names
   host::Scene scene_;
   host::Notes notes_;
-  glm::vec3 sky_{0};
   std::unique_ptr<host::SceneRenderer> sceneRenderer_;
   host::RenderTargets surfaces_;  ///< the scene before the effect
   host::RenderTargets composite_; ///< its colour, blended over

@@ -28,6 +28,7 @@ struct Palette {
   int beam = 0;
   int iron = 0;
   int brass = 0;
+  int horn = 0; ///< thin plates that glow with the lamp inside
 };
 
 /// A point of a cell of the sphere; (x, y) in [-1, 1]^2.
@@ -43,7 +44,8 @@ struct Cell {
   }
 };
 
-/// A curved plate with a hole like a four-pointed star.
+/// A curved plate with a hole like a four-pointed star. Points are even along its edges, so that those of the next row,
+/// half a cell aside, are the same and no light leaks between.
 void piercedCell(MeshBuilder& mesh, const Palette& p, const Cell& cell, double inner, double outer) {
   constexpr int kPoints = 32;
   std::array<glm::dvec2, kPoints> hole;
@@ -51,12 +53,15 @@ void piercedCell(MeshBuilder& mesh, const Palette& p, const Cell& cell, double i
   for (int i = 0; i < kPoints; ++i) {
     const double angle = glm::two_pi<double>() * i / kPoints;
     const glm::dvec2 out(std::cos(angle), std::sin(angle));
-    hole[static_cast<std::size_t>(i)] = out * (0.44 + 0.17 * std::cos(4 * angle));
-    edge[static_cast<std::size_t>(i)] = glm::clamp(out / std::max(std::abs(out.x), std::abs(out.y)), -1.0, 1.0);
+    hole[static_cast<std::size_t>(i)] = out * (0.48 + 0.2 * std::cos(4 * angle));
+    const auto along = [](int step) {
+      return std::clamp(0.25 * std::abs((step + kPoints) % kPoints - 16) - 2, -1.0, 1.0);
+    };
+    edge[static_cast<std::size_t>(i)] = {along(i), along(i - kPoints / 4)};
   }
   for (std::size_t i = 0; i < kPoints; ++i) {
     const std::size_t j = (i + 1) % kPoints;
-    mesh.material(p.brass);
+    mesh.material(p.horn);
     mesh.quad(cell.at(hole[i], outer), cell.at(edge[i], outer), cell.at(edge[j], outer), cell.at(hole[j], outer));
     mesh.material(p.iron);
     mesh.quad(cell.at(hole[j], inner), cell.at(edge[j], inner), cell.at(edge[i], inner), cell.at(hole[i], inner));
@@ -241,6 +246,7 @@ Palette paint(Scene& scene) {
   p.beam = scene.add({"cedar", {0.14, 0.075, 0.04}});
   p.iron = scene.add({"iron", {0.035, 0.03, 0.028}});
   p.brass = scene.add({"brass", {0.42, 0.27, 0.09}});
+  p.horn = scene.add({"horn", {0.5, 0.3, 0.12}, {0.75, 0.33, 0.07}});
   return p;
 }
 
@@ -256,9 +262,9 @@ Scene makeCage() {
   lamp.intensity = 190;
   lamp.position = kLantern;
   scene.lights = {lamp};
-  scene.constituents = {{"henyey-greenstein", glm::dvec3(0.022), 0.35}, {"isotropic", glm::dvec3(0.024), 0}};
+  scene.constituents = {{"henyey-greenstein", glm::dvec3(0.018), 0.35}, {"isotropic", glm::dvec3(0.018), 0}};
   scene.absorption = glm::dvec3(0.001);
-  scene.sky = {0.050, 0.058, 0.082};
+  scene.sky = {0.075, 0.09, 0.13};
 
   const Palette palette = paint(scene);
   MeshBuilder mesh(scene);

@@ -10,7 +10,7 @@ namespace scenes {
 namespace {
 
 constexpr double kHalfGround = 52;
-constexpr glm::dvec3 kEye(1.5, 0, 15);
+constexpr glm::dvec3 kEye(1, 0, 12);
 constexpr glm::dvec3 kSun(0.44, -0.52, 0.73); ///< where its light travels to
 
 struct Palette {
@@ -52,7 +52,7 @@ std::vector<glm::dvec2> treePlaces(Random& random) {
     const double radius = 33 * std::sqrt(random.unit());
     const double angle = random.between(0, glm::two_pi<double>());
     const glm::dvec2 place(radius * std::cos(angle), radius * std::sin(angle) - 5);
-    if (isOpen(place.x, place.y) || glm::distance(place, glm::dvec2(kEye.x, kEye.z)) < 5) continue;
+    if (isOpen(place.x, place.y) || glm::distance(place, {1.5, 15}) < 5) continue;
     bool free = true;
     for (const glm::dvec2& other : places)
       free = free && glm::distance(place, other) > 3.6;
@@ -182,16 +182,16 @@ Palette paint(Scene& scene) {
 
 Scene makeForest() {
   Scene scene;
-  const double eyeHeight = groundAt(kEye.x, kEye.z) + 1.65;
-  scene.camera = {{kEye.x, eyeHeight, kEye.z}, {-0.2, eyeHeight + 1.6, 0}, 58, 0.1, 200};
+  const double eyeHeight = groundAt(kEye.x, kEye.z) + 1.6;
+  scene.camera = {{kEye.x, eyeHeight, kEye.z}, {-2.6, eyeHeight + 3, 0}, 58, 0.1, 200};
   Light sun;
   sun.colour = {1.0, 0.86, 0.62};
   sun.intensity = 14;
   sun.direction = kSun;
   scene.lights = {sun};
-  scene.constituents = {{"henyey-greenstein", glm::dvec3(0.0055), 0.45}, {"isotropic", glm::dvec3(0.004), 0}};
+  scene.constituents = {{"henyey-greenstein", glm::dvec3(0.0046), 0.5}, {"isotropic", {0.0018, 0.0025, 0.0028}, 0}};
   scene.absorption = glm::dvec3(0.0006);
-  scene.sky = {0.12, 0.17, 0.20};
+  scene.sky = {0.20, 0.30, 0.38};
 
   const Palette palette = paint(scene);
   MeshBuilder mesh(scene);

@@ -271,12 +271,13 @@ Scene makeNave(bool glazed) {
   scene.camera = {{3.3, 1.6, 15.9}, {-1.7, 5.5, -4.0}, 62, 0.1, 120};
   Light sun;
   sun.colour = {1.0, 0.86, 0.64};
-  sun.intensity = glazed ? 150 : 52;
+  sun.intensity = glazed ? 120 : 52;
   sun.direction = {-0.72, -0.66, -0.15};
   scene.lights = {sun};
-  scene.constituents = {{"henyey-greenstein", glm::dvec3(0.015), 0.3}, {"isotropic", glm::dvec3(0.015), 0}};
+  const glm::dvec3 scattering(glazed ? 0.019 : 0.015);
+  scene.constituents = {{"henyey-greenstein", scattering, 0.3}, {"isotropic", scattering, 0}};
   scene.absorption = glm::dvec3(0.0008);
-  scene.sky = {0.10, 0.105, 0.12};
+  scene.sky = glazed ? glm::dvec3(0.17, 0.155, 0.145) : glm::dvec3(0.27, 0.25, 0.225);
 
   const Palette palette = paint(scene, glazed);
   MeshBuilder mesh(scene);

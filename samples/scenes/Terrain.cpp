@@ -74,7 +74,7 @@ enum Cover { Grass, Forest, Scree, Rock, DarkRock, Snow, CoverCount };
 
 /// The cover of a triangle; `chance` in [0, 1) frays the borders.
 Cover coverAt(const glm::dvec3& p, const glm::dvec3& normal, double chance) {
-  const double patches = fractal({p.x / 900, p.z / 900}, 6, 91) + 0.3 * (chance - 0.5);
+  const double patches = fractal({p.x / 900, p.z / 900}, 4, 91) + 0.1 * (chance - 0.5);
   const double steep = 1 - normal.y;
   if (p.y > 1800 + 450 * patches && steep < 0.3 + 0.1 * patches) return Snow;
   if (steep > 0.22) return patches > 0 ? Rock : DarkRock;
@@ -115,14 +115,14 @@ Scene makeTerrain() {
   Scene scene;
   scene.grid = 1.0 / 64;
   Light sun;
-  sun.colour = {1.0, 0.91, 0.78};
-  sun.intensity = 4.2;
-  sun.direction = {0.75, -0.2, 0.63};
+  sun.colour = {1.0, 0.8, 0.62};
+  sun.intensity = 8;
+  sun.direction = {0.74, -0.13, 0.66};
   scene.lights = {sun};
-  scene.camera = {{6700, 2420, 7300}, {300, 1330, 400}, 50, 5, 60000};
-  scene.constituents = {{"rayleigh", {6.6e-6, 15.4e-6, 37.7e-6}, 0}, {"henyey-greenstein", glm::dvec3(2.8e-5), 0.6}};
-  scene.absorption = glm::dvec3(2e-6);
-  scene.sky = {0.16, 0.23, 0.36};
+  scene.camera = {{6700, 2420, 7300}, {300, 1050, 400}, 46, 5, 60000};
+  scene.constituents = {{"rayleigh", {8e-6, 18.7e-6, 45.7e-6}, 0}, {"henyey-greenstein", glm::dvec3(2.2e-5), 0.75}};
+  scene.absorption = glm::dvec3(1e-6);
+  scene.sky = {1.1, 1.35, 1.75};
 
   const std::array<int, CoverCount> materials = {
       scene.add({"meadow", {0.095, 0.1, 0.05}}),     scene.add({"forest", {0.035, 0.06, 0.025}}),

@@ -85,6 +85,7 @@ FrameRig::FrameRig(int width, int height, const std::vector<float>& depth, GLenu
   frame.height = height;
   frame.depth.texture = depthTexture_.name();
   frame.output = {inscatter_.name(), transmittance_.name()};
+  frame.settings.technique = tyndall::Technique::Exact;
 }
 
 reference::ImageAnswer FrameRig::render() {

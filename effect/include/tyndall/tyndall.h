@@ -150,7 +150,9 @@ struct Medium {
 };
 
 enum class Technique {
-  Exact, ///< every shadow texel along every pixel's ray, closed form or quadrature per lit span: the reference
+  Exact,    ///< every shadow texel along every pixel's ray, closed form or quadrature per lit span: the reference
+  Tree,     ///< every pixel along its nearest slice's row, skipping by a min/max tree (Chen 2011)
+  Epipolar, ///< march samples along epipolar slices, interpolated and unwarped (Yusov 2013)
 };
 
 enum class ShadowFilter {
@@ -158,10 +160,20 @@ enum class ShadowFilter {
   Bilinear, ///< 2x2 percentage-closer filtering, integrated along the ray
 };
 
+/// Quality against time. The profiles are rows of one table; each knob may be set by itself as well.
+enum class Profile { Performance, Balanced, High, Reference };
+
 struct Settings {
   Technique technique = Technique::Exact;
   ShadowFilter shadowFilter = ShadowFilter::Nearest;
+  int slices = 1024;  ///< Tree, Epipolar: epipolar lines, 1 to 8192; never more than pixels on the visible border
+  int samples = 1024; ///< Epipolar: samples of a slice, a multiple of 64 from 64 to 8192; never denser than pixels
+  float breakThreshold = 0.1F; ///< Epipolar: relative change of distance that counts as a depth break, > 0
+  float leastWeight = 0.05F;   ///< Epipolar: bilateral weight under which a pixel is marched by itself, 0 to 1
 };
+
+/// The settings of a profile. Reference is Technique::Exact.
+Settings settingsOf(Profile profile);
 
 /// Textures of the engine's own to write instead of, or besides, blending into Frame::colour. GL_TEXTURE_2D, a float
 /// colour format (RGBA16F, RGBA32F, R11F_G11F_B10F, RGB16F, RGB32F), the size of Frame::width x height.
@@ -199,8 +211,9 @@ struct PassStatistics {
 
 struct Statistics {
   std::vector<PassStatistics> passes;
-  std::uint64_t bytes = 0;  ///< GL memory the effect holds in textures and buffers
-  int compiledPrograms = 0; ///< shader variants compiled so far
+  std::uint64_t bytes = 0;       ///< GL memory the effect holds in textures and buffers
+  int compiledPrograms = 0;      ///< shader variants compiled so far
+  std::uint64_t fixupPixels = 0; ///< pixels that no epipolar sample served
 };
 
 /// Resolves a GL function by name, as glfwGetProcAddress or eglGetProcAddress do.

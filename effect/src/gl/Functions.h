@@ -53,12 +53,18 @@ using Uint64 = std::uint64_t;
   X(void, TexImage2D,                                                                                                  \
     (Enum target, Int level, Int internal, Sizei width, Sizei height, Int border, Enum format, Enum type,              \
      const void* pixels),                                                                                              \
-    PixelUnpackBuffer)                                                                                                 \
+    PixelUnpack)                                                                                                       \
+  X(void, TexSubImage2D,                                                                                               \
+    (Enum target, Int level, Int x, Int y, Sizei width, Sizei height, Enum format, Enum type, const void* pixels),     \
+    PixelUnpack)                                                                                                       \
+  X(void, PixelStorei, (Enum name, Int value), PixelUnpack)                                                            \
   X(void, GetTexLevelParameteriv, (Enum target, Int level, Enum name, Int * value), None)                              \
   X(void, GetTexParameteriv, (Enum target, Enum name, Int * value), None)                                              \
   X(void, GenSamplers, (Sizei n, Uint * names), None)                                                                  \
   X(void, DeleteSamplers, (Sizei n, const Uint* names), None)                                                          \
   X(void, BindSampler, (Uint unit, Uint sampler), Textures)                                                            \
+  X(Boolean, IsSampler, (Uint sampler), None)                                                                          \
+  X(void, GetSamplerParameteriv, (Uint sampler, Enum name, Int * value), None)                                         \
   X(void, SamplerParameteri, (Uint sampler, Enum name, Int value), None)                                               \
   X(void, GenBuffers, (Sizei n, Uint * names), None)                                                                   \
   X(void, DeleteBuffers, (Sizei n, const Uint* names), None)                                                           \
@@ -94,6 +100,19 @@ using Uint64 = std::uint64_t;
   X(Uint, GetUniformBlockIndex, (Uint program, const Char* name), None)                                                \
   X(void, UniformBlockBinding, (Uint program, Uint index, Uint binding), None)                                         \
   X(void, DrawArrays, (Enum mode, Int first, Sizei count), None)                                                       \
+  X(void, DrawArraysInstanced, (Enum mode, Int first, Sizei count, Sizei instances), None)                             \
+  X(void, GenRenderbuffers, (Sizei n, Uint * names), None)                                                             \
+  X(void, DeleteRenderbuffers, (Sizei n, const Uint* names), None)                                                     \
+  X(void, BindRenderbuffer, (Enum target, Uint renderbuffer), Renderbuffer)                                            \
+  X(void, RenderbufferStorage, (Enum target, Enum format, Sizei width, Sizei height), None)                            \
+  X(void, FramebufferRenderbuffer, (Enum target, Enum attachment, Enum kind, Uint renderbuffer), None)                 \
+  X(void, ClearBufferiv, (Enum buffer, Int index, const Int* value), None)                                             \
+  X(void, StencilFunc, (Enum function, Int reference, Uint mask), Stencil)                                             \
+  X(void, StencilOp, (Enum fail, Enum depthFail, Enum pass), Stencil)                                                  \
+  X(void, StencilMask, (Uint mask), Stencil)                                                                           \
+  X(void, StencilFuncSeparate, (Enum face, Enum function, Int reference, Uint mask), Stencil)                          \
+  X(void, StencilOpSeparate, (Enum face, Enum fail, Enum depthFail, Enum pass), Stencil)                               \
+  X(void, StencilMaskSeparate, (Enum face, Uint mask), Stencil)                                                        \
   X(void, Viewport, (Int x, Int y, Sizei width, Sizei height), Viewports)                                              \
   X(void, BlendFuncSeparate, (Enum srcRgb, Enum dstRgb, Enum srcAlpha, Enum dstAlpha), Blending)                       \
   X(void, BlendEquationSeparate, (Enum rgb, Enum alpha), Blending)                                                     \
@@ -102,6 +121,9 @@ using Uint64 = std::uint64_t;
   X(void, Finish, (), None)                                                                                            \
   X(void, GenQueries, (Sizei n, Uint * names), None)                                                                   \
   X(void, DeleteQueries, (Sizei n, const Uint* names), None)                                                           \
+  X(void, BeginQuery, (Enum target, Uint query), None)                                                                 \
+  X(void, EndQuery, (Enum target), None)                                                                               \
+  X(void, GetQueryiv, (Enum target, Enum name, Int * value), None)                                                     \
   X(void, QueryCounter, (Uint query, Enum target), None)                                                               \
   X(void, GetQueryObjectui64v, (Uint query, Enum name, Uint64 * value), None)
 

@@ -8,7 +8,7 @@
 
 namespace tyndall::gl {
 
-enum class ObjectKind { Texture, Sampler, Buffer, VertexArray, Framebuffer, Query };
+enum class ObjectKind { Texture, Sampler, Buffer, VertexArray, Framebuffer, Renderbuffer, Query };
 
 template <ObjectKind Kind>
 class Object {
@@ -20,6 +20,7 @@ public:
     if constexpr (Kind == ObjectKind::Buffer) gl.GenBuffers(1, &name_);
     if constexpr (Kind == ObjectKind::VertexArray) gl.GenVertexArrays(1, &name_);
     if constexpr (Kind == ObjectKind::Framebuffer) gl.GenFramebuffers(1, &name_);
+    if constexpr (Kind == ObjectKind::Renderbuffer) gl.GenRenderbuffers(1, &name_);
     if constexpr (Kind == ObjectKind::Query) gl.GenQueries(1, &name_);
   }
   Object(Object&& other) noexcept : gl_(other.gl_), name_(std::exchange(other.name_, 0)) {}
@@ -37,6 +38,7 @@ public:
     if constexpr (Kind == ObjectKind::Buffer) gl_->DeleteBuffers(1, &name_);
     if constexpr (Kind == ObjectKind::VertexArray) gl_->DeleteVertexArrays(1, &name_);
     if constexpr (Kind == ObjectKind::Framebuffer) gl_->DeleteFramebuffers(1, &name_);
+    if constexpr (Kind == ObjectKind::Renderbuffer) gl_->DeleteRenderbuffers(1, &name_);
     if constexpr (Kind == ObjectKind::Query) gl_->DeleteQueries(1, &name_);
   }
 
@@ -53,6 +55,7 @@ using Sampler = Object<ObjectKind::Sampler>;
 using Buffer = Object<ObjectKind::Buffer>;
 using VertexArray = Object<ObjectKind::VertexArray>;
 using Framebuffer = Object<ObjectKind::Framebuffer>;
+using Renderbuffer = Object<ObjectKind::Renderbuffer>;
 using Query = Object<ObjectKind::Query>;
 
 } // namespace tyndall::gl

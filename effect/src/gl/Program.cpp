@@ -10,9 +10,11 @@ namespace tyndall::gl {
 
 namespace {
 
-constexpr std::array<const char*, 6> kSamplers = {"sceneDepth", "shadowMap", "glassColour",
-                                                  "glassDepth", "inscatter", "transmittance"};
-constexpr std::array<const char*, 2> kBlocks = {"FrameBlock", "LightBlock"};
+constexpr std::array<const char*, 15> kSamplers = {"sceneDepth", "shadowMap",     "glassColour", "glassDepth",
+                                                   "inscatter",  "transmittance", "sliceTable",  "sampleEnds",
+                                                   "marks",      "marched",       "extra",       "epipolarInscatter",
+                                                   "rowDepths",  "rowNodes",      "rowTree"};
+constexpr std::array<const char*, 3> kBlocks = {"FrameBlock", "LightBlock", "EpipolarBlock"};
 
 std::string prologue(const Definitions& definitions) {
   std::string text = "#version 330 core\n#define UNIFORM_BLOCK(name) layout(std140) uniform name\n";
@@ -31,13 +33,13 @@ std::string numbered(const std::string& text) {
 
 } // namespace
 
-Uint ProgramCache::use(const std::string& fragment, const Definitions& definitions) {
-  std::string key = fragment;
+Uint ProgramCache::use(const std::string& fragment, const Definitions& definitions, const std::string& vertex) {
+  std::string key = fragment + " " + vertex;
   for (const auto& [name, value] : definitions)
     key += " " + name + "=" + std::to_string(value);
   auto found = programs_.find(key);
   if (found == programs_.end()) {
-    const Uint name = link(fragment, definitions);
+    const Uint name = link(fragment, definitions, vertex);
     if (name == 0) {
       error_ = key + "\n" + error_;
       return 0;
@@ -60,13 +62,13 @@ Uint ProgramCache::compile(Enum kind, const std::string& file, const Definitions
   gl_.GetShaderiv(shader, INFO_LOG_LENGTH, &length);
   std::string log(static_cast<std::size_t>(length > 0 ? length : 1), '\0');
   gl_.GetShaderInfoLog(shader, length, nullptr, log.data());
-  error_ = log + "\n" + numbered(text);
+  error_ = std::string(log.c_str()) + "\n" + numbered(text); // the log counts its terminating zero
   gl_.DeleteShader(shader);
   return 0;
 }
 
-Uint ProgramCache::link(const std::string& fragment, const Definitions& definitions) {
-  const Uint vertex = compile(VERTEX_SHADER, "passes/fullscreen.vert", {});
+Uint ProgramCache::link(const std::string& fragment, const Definitions& definitions, const std::string& vertexFile) {
+  const Uint vertex = compile(VERTEX_SHADER, vertexFile, {});
   const Uint pixel = vertex ? compile(FRAGMENT_SHADER, fragment, definitions) : 0;
   if (pixel == 0) {
     if (vertex) gl_.DeleteShader(vertex);
@@ -86,6 +88,7 @@ Uint ProgramCache::link(const std::string& fragment, const Definitions& definiti
     gl_.GetProgramiv(program, INFO_LOG_LENGTH, &length);
     error_.assign(static_cast<std::size_t>(length > 0 ? length : 1), '\0');
     gl_.GetProgramInfoLog(program, length, nullptr, error_.data());
+    error_ = error_.c_str();
     gl_.DeleteProgram(program);
     return 0;
   }

@@ -1,4 +1,5 @@
-// A linked program: the full-screen vertex shader with one fragment shader of glsl/passes and a set of definitions.
+// A linked program: a vertex shader (full-screen unless named) with one fragment shader of glsl/passes and a set of
+// definitions.
 #pragma once
 
 #include "gl/Functions.h"
@@ -13,7 +14,23 @@ namespace tyndall::gl {
 using Definitions = std::vector<std::pair<std::string, int>>; ///< name and value of each #define
 
 /// Texture unit of each sampler that a shader of ours may declare.
-enum class Unit : Uint { SceneDepth, ShadowMap, GlassColour, GlassDepth, Inscatter, Transmittance };
+enum class Unit : Uint {
+  SceneDepth,
+  ShadowMap,
+  GlassColour,
+  GlassDepth,
+  Inscatter,
+  Transmittance,
+  SliceTable,
+  SampleEnds,
+  Marks,
+  Marched,
+  Extra,
+  EpipolarInscatter,
+  RowDepths,
+  RowNodes,
+  RowTree,
+};
 
 class Program {
 public:
@@ -32,6 +49,8 @@ private:
   Uint name_;
 };
 
+inline constexpr const char* kFullScreen = "passes/fullscreen.vert";
+
 /// Compiles variants when they are first asked for and keeps them.
 class ProgramCache {
 public:
@@ -39,14 +58,14 @@ public:
 
   /// The program of a fragment shader ("passes/exact.frag"); 0 if it does not build, then error() has the log. Leaves
   /// the program in use.
-  Uint use(const std::string& fragment, const Definitions& definitions);
+  Uint use(const std::string& fragment, const Definitions& definitions, const std::string& vertex = kFullScreen);
 
   const std::string& error() const { return error_; }
   int size() const { return static_cast<int>(programs_.size()); }
 
 private:
   Uint compile(Enum kind, const std::string& file, const Definitions& definitions);
-  Uint link(const std::string& fragment, const Definitions& definitions);
+  Uint link(const std::string& fragment, const Definitions& definitions, const std::string& vertex);
 
   const Functions& gl_;
   std::map<std::string, Program> programs_;

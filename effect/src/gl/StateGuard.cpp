@@ -14,6 +14,9 @@ constexpr std::array<Enum, 11> kCapabilities = {CULL_FACE,           DEPTH_TEST,
                                                 SAMPLE_MASK,         SAMPLE_COVERAGE,    SAMPLE_ALPHA_TO_COVERAGE,
                                                 SAMPLE_ALPHA_TO_ONE, POLYGON_SMOOTH};
 
+constexpr std::array<Enum, 8> kUnpack = {UNPACK_SWAP_BYTES,  UNPACK_LSB_FIRST, UNPACK_ROW_LENGTH,  UNPACK_SKIP_ROWS,
+                                         UNPACK_SKIP_PIXELS, UNPACK_ALIGNMENT, UNPACK_SKIP_IMAGES, UNPACK_IMAGE_HEIGHT};
+
 Int integer(const Functions& gl, Enum name) {
   Int value = 0;
   gl.GetIntegerv(name, &value);
@@ -43,6 +46,9 @@ StateGuard::StateGuard(const Functions& gl) : gl_(gl) {
   framebuffer_ = integer(gl, DRAW_FRAMEBUFFER_BINDING);
   unpackBuffer_ = integer(gl, PIXEL_UNPACK_BUFFER_BINDING);
   uniformBuffer_ = integer(gl, UNIFORM_BUFFER_BINDING);
+  renderbuffer_ = integer(gl, RENDERBUFFER_BINDING);
+  for (std::size_t i = 0; i < kUnpack.size(); ++i)
+    unpack_[i] = integer(gl, kUnpack[i]);
   gl.GetIntegerv(POLYGON_MODE, polygonMode_.data());
   for (std::size_t i = 0; i < uniformBindings_.size(); ++i) {
     const auto index = static_cast<Uint>(i);
@@ -55,6 +61,7 @@ StateGuard::StateGuard(const Functions& gl) : gl_(gl) {
   saveTextures();
   saveDrawBuffers();
   saveViewports();
+  saveStencil();
   setDefaults();
 }
 
@@ -62,7 +69,10 @@ StateGuard::~StateGuard() {
   gl_.UseProgram(static_cast<Uint>(program_));
   gl_.BindVertexArray(static_cast<Uint>(vertexArray_));
   gl_.BindFramebuffer(DRAW_FRAMEBUFFER, static_cast<Uint>(framebuffer_));
+  gl_.BindRenderbuffer(RENDERBUFFER, static_cast<Uint>(renderbuffer_));
   gl_.BindBuffer(PIXEL_UNPACK_BUFFER, static_cast<Uint>(unpackBuffer_));
+  for (std::size_t i = 0; i < kUnpack.size(); ++i)
+    gl_.PixelStorei(kUnpack[i], unpack_[i]);
   for (std::size_t i = 0; i < uniformBindings_.size(); ++i) {
     const UniformBinding& binding = uniformBindings_[i];
     const auto index = static_cast<Uint>(i);
@@ -80,6 +90,28 @@ StateGuard::~StateGuard() {
   restoreTextures();
   restoreDrawBuffers();
   restoreViewports();
+  restoreStencil();
+}
+
+void StateGuard::saveStencil() {
+  stencil_[0] = {integer(gl_, STENCIL_FUNC),           integer(gl_, STENCIL_REF),
+                 integer(gl_, STENCIL_VALUE_MASK),     integer(gl_, STENCIL_WRITEMASK),
+                 integer(gl_, STENCIL_FAIL),           integer(gl_, STENCIL_PASS_DEPTH_FAIL),
+                 integer(gl_, STENCIL_PASS_DEPTH_PASS)};
+  stencil_[1] = {integer(gl_, STENCIL_BACK_FUNC),           integer(gl_, STENCIL_BACK_REF),
+                 integer(gl_, STENCIL_BACK_VALUE_MASK),     integer(gl_, STENCIL_BACK_WRITEMASK),
+                 integer(gl_, STENCIL_BACK_FAIL),           integer(gl_, STENCIL_BACK_PASS_DEPTH_FAIL),
+                 integer(gl_, STENCIL_BACK_PASS_DEPTH_PASS)};
+}
+
+void StateGuard::restoreStencil() const {
+  for (std::size_t i = 0; i < 2; ++i) {
+    const StencilFace& f = stencil_[i];
+    const Enum face = i == 0 ? FRONT : BACK;
+    gl_.StencilFuncSeparate(face, static_cast<Enum>(f.function), f.reference, static_cast<Uint>(f.valueMask));
+    gl_.StencilOpSeparate(face, static_cast<Enum>(f.fail), static_cast<Enum>(f.depthFail), static_cast<Enum>(f.pass));
+    gl_.StencilMaskSeparate(face, static_cast<Uint>(f.writeMask));
+  }
 }
 
 void StateGuard::saveTextures() {
@@ -182,6 +214,8 @@ void StateGuard::setDefaults() const {
   gl_.Disable(BLEND);
   gl_.PolygonMode(FRONT_AND_BACK, FILL);
   gl_.BindBuffer(PIXEL_UNPACK_BUFFER, 0);
+  for (std::size_t i = 0; i < kUnpack.size(); ++i)
+    gl_.PixelStorei(kUnpack[i], kUnpack[i] == UNPACK_ALIGNMENT ? 4 : 0);
   for (std::size_t i = 0; i < drawBuffers_.size(); ++i)
     gl_.ColorMaski(static_cast<Uint>(i), 1, 1, 1, 1);
 }

@@ -11,7 +11,7 @@
 namespace tyndall::gl {
 
 inline constexpr int kTextureUnits = 8;    ///< units 0..7 are ours during a render
-inline constexpr int kUniformBindings = 2; ///< uniform buffer bindings 0..1 likewise
+inline constexpr int kUniformBindings = 3; ///< uniform buffer bindings 0..2 likewise
 
 class StateGuard {
 public:
@@ -41,19 +41,28 @@ private:
     Boolean scissor = 0;
   };
 
+  struct StencilFace {
+    Int function = 0, reference = 0, valueMask = 0, writeMask = 0, fail = 0, depthFail = 0, pass = 0;
+  };
+
   void saveTextures();
   void saveDrawBuffers();
   void saveViewports();
+  void saveStencil();
   void setDefaults() const;
   void restoreTextures() const;
   void restoreDrawBuffers() const;
   void restoreViewports() const;
+  void restoreStencil() const;
 
   const Functions& gl_;
   Int program_ = 0;
   Int vertexArray_ = 0;
   Int framebuffer_ = 0;
+  Int renderbuffer_ = 0;
   Int unpackBuffer_ = 0;
+  std::array<Int, 8> unpack_{};
+  std::array<StencilFace, 2> stencil_;
   Int uniformBuffer_ = 0;
   Int activeUnit_ = 0;
   std::array<Int, 2> polygonMode_{};

@@ -32,7 +32,7 @@ std::vector<Variant> allVariants() {
             v.shadowArray = (bits & 1) != 0;
             v.bilinear = (bits & 2) != 0;
             v.glass = (bits & 4) != 0;
-            for (v.shadowViews = 1; v.shadowViews <= (v.shadowArray && v.lightKind != 2 ? 2 : 1); ++v.shadowViews)
+            for (v.shadowViews = 1; v.shadowViews <= (v.lightKind != 2 ? 2 : 1); ++v.shadowViews)
               all.push_back(v);
           }
         }

@@ -27,4 +27,8 @@ void setBlend(const PassContext& context, Blend blend);
 /// Draws the full-screen triangle with a fragment shader of glsl/passes; false if it does not build.
 bool drawFullScreen(const PassContext& context, const std::string& fragment, const gl::Definitions& definitions);
 
+/// Draws instances of the six vertices of a vertex shader of glsl/passes.
+bool drawStrips(const PassContext& context, const std::string& vertex, int instances, const std::string& fragment,
+                const gl::Definitions& definitions);
+
 } // namespace tyndall::passes

@@ -54,10 +54,7 @@ double compositeError(const std::vector<float>& colour, const reference::ImageAn
 }
 
 tests::SceneRig threeLights() {
-  tests::SceneRig rig;
-  rig.addLight(LightKind::Directional, tests::Casters::Blocks, true);
-  rig.addLight(LightKind::Point);
-  rig.addLight(LightKind::Spot);
+  tests::SceneRig rig = tests::threeLights();
   rig.frame.medium.absorption = {0.01F, 0.03F, 0.02F};
   return rig;
 }
@@ -160,8 +157,10 @@ TEST_CASE("a medium that neither scatters nor absorbs leaves the colour bit-equa
   tests::SceneRig rig = threeLights();
   rig.frame.medium.absorption = {0, 0, 0};
   for (const bool constituents : {false, true}) {
-    if (!constituents) rig.frame.medium.constituents.clear();
-    else rig.frame.medium.constituents = {{{0, 0, 0}, Phase::Rayleigh, 0}};
+    if (!constituents)
+      rig.frame.medium.constituents.clear();
+    else
+      rig.frame.medium.constituents = {{{0, 0, 0}, Phase::Rayleigh, 0}};
     CHECK(tests::bitEqual(composite(rig, {}), backBuffer()));
     CHECK(whySkipped(tests::testEffect(), "composite") == "the medium neither scatters nor absorbs");
     CHECK(tests::testEffect().statistics().passes.size() == 1);

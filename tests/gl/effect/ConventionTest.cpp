@@ -12,9 +12,9 @@ using host::gl;
 
 namespace {
 
-const std::vector<GLenum> kDepthFormats = {GL_DEPTH_COMPONENT16,  GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT32,
-                                           GL_DEPTH_COMPONENT32F, GL_R32F,              GL_DEPTH24_STENCIL8,
-                                           GL_DEPTH32F_STENCIL8};
+const std::vector<GLenum> kDepthFormats = {
+    GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT32, GL_DEPTH_COMPONENT32F, GL_R32F,
+    GL_DEPTH24_STENCIL8,  GL_DEPTH32F_STENCIL8};
 
 std::vector<tests::DepthConvention> allConventions() {
   std::vector<tests::DepthConvention> all;
@@ -133,17 +133,15 @@ TEST_CASE("a shadow map's and the depth's compare mode and filters change nothin
       CHECK(answer.inscatter.rgb == expected.inscatter.rgb);
       CHECK(answer.transmittance.rgb == expected.transmittance.rgb);
     }
-    // The mean of the weights over a cell stands for the weights, hence the wider bound.
-    CHECK(tests::difference(expected.inscatter, rig.reference().inscatter) <=
-          (filter == ShadowFilter::Nearest ? 1e-4 : 1e-2));
+    const reference::ErrorMetrics error = reference::compare(expected.inscatter, rig.reference().inscatter);
+    INFO(error.text());
+    CHECK(error.rRmse <= 1e-3);
+    CHECK(error.p99 <= 5e-3);
   }
 }
 
 TEST_CASE("multisampled depth gives the mean over the samples") {
-  tests::SceneRig rig;
-  rig.addLight(LightKind::Directional, tests::Casters::Blocks, true);
-  rig.addLight(LightKind::Point);
-  rig.addLight(LightKind::Spot);
+  tests::SceneRig rig = tests::threeLights();
   rig.frame.medium.farDistance = 60;
   for (const GLenum format : {GL_DEPTH_COMPONENT32F, GL_R32F})
     for (const int wanted : {1, 2, 4}) {

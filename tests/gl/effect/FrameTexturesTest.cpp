@@ -17,7 +17,7 @@ struct Slot {
   std::string field;
   std::function<std::uint32_t&(Frame&)> name;
   Use use;
-  int layers; // 0: GL_TEXTURE_2D
+  int layers;            // 0: GL_TEXTURE_2D
   bool setsSize = false; // other textures follow its size
   int size() const { return field.rfind("lights", 0) == 0 ? kShadowSize : kSize; }
 };
@@ -96,8 +96,7 @@ TEST_CASE("a texture of another target is refused") {
     const std::string rule = slot.layers == 0 ? "must be a GL_TEXTURE_2D" : "must be a GL_TEXTURE_2D_ARRAY";
     const host::GlTexture swapped = make(slot.layers == 0 ? 2 : 0, goodFormat(slot.use), slot.size(), slot.size());
     refuse(rig, slot, swapped.name(), rule);
-    const host::GlTexture samples =
-        host::makeTexture2DMultisample(goodFormat(slot.use), slot.size(), slot.size(), 4);
+    const host::GlTexture samples = host::makeTexture2DMultisample(goodFormat(slot.use), slot.size(), slot.size(), 4);
     refuse(rig, slot, samples.name(), rule);
     const host::GlTexture cube = host::makeTexture();
     gl().BindTexture(GL_TEXTURE_CUBE_MAP, cube.name());
@@ -226,8 +225,13 @@ TEST_CASE("every format that the header names is accepted") {
   tests::RefusalRig rig;
   rig.frame.lights.resize(1); // a driver compiles each light's shader anew for each format
   const std::vector<GLenum> targets = {GL_RGBA16F, GL_RGBA32F, GL_R11F_G11F_B10F};
-  const std::vector<GLenum> depths = {GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT32,
-                                      GL_DEPTH_COMPONENT32F, GL_DEPTH24_STENCIL8, GL_DEPTH32F_STENCIL8, GL_R32F};
+  const std::vector<GLenum> depths = {GL_DEPTH_COMPONENT16,
+                                      GL_DEPTH_COMPONENT24,
+                                      GL_DEPTH_COMPONENT32,
+                                      GL_DEPTH_COMPONENT32F,
+                                      GL_DEPTH24_STENCIL8,
+                                      GL_DEPTH32F_STENCIL8,
+                                      GL_R32F};
   const std::vector<GLenum> tints = {GL_RGB8,    GL_RGBA8,  GL_SRGB8,   GL_SRGB8_ALPHA8,  GL_RGB16F,
                                      GL_RGBA16F, GL_RGB32F, GL_RGBA32F, GL_R11F_G11F_B10F};
   const auto acceptInAll = [&](Use use, GLenum format) {

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
 using namespace tyndall;
@@ -47,8 +48,16 @@ const std::vector<NumberRule> kNumberRules = {
      "finite and not 0"},
     {"lights[1].position", 3, [](Frame& f, int i, double v) { put(f.lights[1].position, i, v); }, kNotFinite, "finite"},
     {"lights[2].position", 3, [](Frame& f, int i, double v) { put(f.lights[2].position, i, v); }, kNotFinite, "finite"},
-    {"lights[1].range", 1, [](Frame& f, int, double v) { f.lights[1].range = v; }, {kNan, 0, -1, kMinusInfinity}, "> 0"},
-    {"lights[2].range", 1, [](Frame& f, int, double v) { f.lights[2].range = v; }, {kNan, 0, -1, kMinusInfinity}, "> 0"},
+    {"lights[1].range",
+     1,
+     [](Frame& f, int, double v) { f.lights[1].range = v; },
+     {kNan, 0, -1, kMinusInfinity},
+     "> 0"},
+    {"lights[2].range",
+     1,
+     [](Frame& f, int, double v) { f.lights[2].range = v; },
+     {kNan, 0, -1, kMinusInfinity},
+     "> 0"},
     {"lights[2].outerConeAngle",
      1,
      [](Frame& f, int, double v) { f.lights[2].outerConeAngle = v; },
@@ -59,15 +68,13 @@ const std::vector<NumberRule> kNumberRules = {
      [](Frame& f, int, double v) { f.lights[2].innerConeAngle = v; },
      {kNan, -1e-9, 0.601, kInfinity},
      ">= 0 and <= outerConeAngle"},
-    {"lights[0].boundary.point",
-     3,
+    {"lights[0].boundary.point", 3,
      [](Frame& f, int i, double v) {
        f.lights[0].boundary.enabled = true;
        put(f.lights[0].boundary.point, i, v);
      },
      kNotFinite, "finite"},
-    {"lights[0].boundary.normal",
-     3,
+    {"lights[0].boundary.normal", 3,
      [](Frame& f, int i, double v) {
        f.lights[0].boundary.enabled = true;
        put(f.lights[0].boundary.normal, i, v);
@@ -123,48 +130,78 @@ const std::vector<Breakage> kBreakages = {
        f.output = {};
      },
      {"Frame::colour is 0", "output"}},
-    {"singular view", [](Frame& f) { f.camera.viewFromWorld[0] = f.camera.viewFromWorld[1] = f.camera.viewFromWorld[2] = 0; },
+    {"singular view",
+     [](Frame& f) { f.camera.viewFromWorld[0] = f.camera.viewFromWorld[1] = f.camera.viewFromWorld[2] = 0; },
      {"camera.viewFromWorld is singular", "invertible"}},
-    {"all-zero view", [](Frame& f) { f.camera.viewFromWorld = {}; }, {"camera.viewFromWorld is singular", "invertible"}},
-    {"projective view", [](Frame& f) { f.camera.viewFromWorld[3] = 0.1; },
+    {"all-zero view",
+     [](Frame& f) { f.camera.viewFromWorld = {}; },
+     {"camera.viewFromWorld is singular", "invertible"}},
+    {"projective view",
+     [](Frame& f) { f.camera.viewFromWorld[3] = 0.1; },
      {"camera.viewFromWorld is not affine", "(0, 0, 0, 1)"}},
-    {"scaled view", [](Frame& f) { f.camera.viewFromWorld[15] = 2; },
+    {"scaled view",
+     [](Frame& f) { f.camera.viewFromWorld[15] = 2; },
      {"camera.viewFromWorld is not affine", "(0, 0, 0, 1)"}},
-    {"singular projection", [](Frame& f) { f.camera.clipFromView[5] = 0; },
+    {"singular projection",
+     [](Frame& f) { f.camera.clipFromView[5] = 0; },
      {"camera.clipFromView is singular", "invertible"}},
-    {"projection of rank 1", [](Frame& f) { f.camera.clipFromView.fill(1); },
+    {"projection of rank 1",
+     [](Frame& f) { f.camera.clipFromView.fill(1); },
      {"camera.clipFromView is singular", "invertible"}},
     {"clip depth", [](Frame& f) { setEnum(f.camera.clipDepth, 2); }, {"camera.clipDepth is 2", "enumerators"}},
     {"17 lights", [](Frame& f) { f.lights.resize(17); }, {"lights is 17 long", "at most 16"}},
     {"light kind 3", [](Frame& f) { setEnum(f.lights[1].kind, 3); }, {"lights[1].kind is 3", "enumerators"}},
     {"light kind -1", [](Frame& f) { setEnum(f.lights[1].kind, -1); }, {"lights[1].kind is -1", "enumerators"}},
-    {"no direction", [](Frame& f) { f.lights[0].direction = {0, 0, 0}; },
+    {"no direction",
+     [](Frame& f) {
+       f.lights[0].direction = {0, 0, 0};
+     },
      {"lights[0].direction is (0, 0, 0)", "not 0"}},
-    {"no spot direction", [](Frame& f) { f.lights[2].direction = {0, -0.0, 0}; }, {"lights[2].direction", "not 0"}},
-    {"boundary of a point light", [](Frame& f) { f.lights[1].boundary.enabled = true; },
+    {"no spot direction",
+     [](Frame& f) {
+       f.lights[2].direction = {0, -0.0, 0};
+     },
+     {"lights[2].direction", "not 0"}},
+    {"boundary of a point light",
+     [](Frame& f) { f.lights[1].boundary.enabled = true; },
      {"lights[1].boundary.enabled", "directional"}},
-    {"boundary without normal", [](Frame& f) { f.lights[0].boundary = {true, {0, 0, 0}, {0, 0, 0}}; },
+    {"boundary without normal",
+     [](Frame& f) {
+       f.lights[0].boundary = {true, {0, 0, 0}, {0, 0, 0}};
+     },
      {"lights[0].boundary.normal is (0, 0, 0)", "not 0"}},
-    {"boundary along the light", [](Frame& f) { f.lights[0].boundary = {true, {0, 0, 0}, {1, 0.4, 0}}; },
+    {"boundary along the light",
+     [](Frame& f) {
+       f.lights[0].boundary = {true, {0, 0, 0}, {1, 0.4, 0}};
+     },
      {"lights[0].boundary.normal", "parallel"}},
     {"no views", [](Frame& f) { f.lights[0].shadow.views.clear(); }, {"lights[0].shadow.views is 0 long", "1 to 4"}},
-    {"5 cascades", [](Frame& f) { f.lights[0].shadow.views.resize(5); },
+    {"5 cascades",
+     [](Frame& f) { f.lights[0].shadow.views.resize(5); },
      {"lights[0].shadow.views is 5 long", "1 to 4"}},
     {"7 faces", [](Frame& f) { f.lights[1].shadow.views.resize(7); }, {"lights[1].shadow.views is 7 long", "1 to 6"}},
-    {"2 spot views", [](Frame& f) { f.lights[2].shadow.views.resize(2); }, {"lights[2].shadow.views is 2 long", "has 1"}},
-    {"singular shadow view", [](Frame& f) { f.lights[1].shadow.views[3].clipFromWorld = {}; },
+    {"2 spot views",
+     [](Frame& f) { f.lights[2].shadow.views.resize(2); },
+     {"lights[2].shadow.views is 2 long", "has 1"}},
+    {"singular shadow view",
+     [](Frame& f) { f.lights[1].shadow.views[3].clipFromWorld = {}; },
      {"lights[1].shadow.views[3].clipFromWorld is singular", "invertible"}},
-    {"shadow clip depth", [](Frame& f) { setEnum(f.lights[0].shadow.clipDepth, -1); },
+    {"shadow clip depth",
+     [](Frame& f) { setEnum(f.lights[0].shadow.clipDepth, -1); },
      {"lights[0].shadow.clipDepth is -1", "enumerators"}},
     {"glass without depth", [](Frame& f) { f.lights[0].glass.depth = 0; }, {"lights[0].glass.depth is 0", "both"}},
     {"glass without colour", [](Frame& f) { f.lights[0].glass.colour = 0; }, {"lights[0].glass.colour is 0", "both"}},
-    {"glass without shadow map", [](Frame& f) { f.lights[2].shadow.texture = 0; },
+    {"glass without shadow map",
+     [](Frame& f) { f.lights[2].shadow.texture = 0; },
      {"lights[2].shadow.texture is 0", "glass map needs a shadow map"}},
-    {"5 constituents", [](Frame& f) { f.medium.constituents.resize(5); },
+    {"5 constituents",
+     [](Frame& f) { f.medium.constituents.resize(5); },
      {"medium.constituents is 5 long", "at most 4"}},
-    {"phase 4", [](Frame& f) { setEnum(f.medium.constituents[1].phase, 4); },
+    {"phase 4",
+     [](Frame& f) { setEnum(f.medium.constituents[1].phase, 4); },
      {"medium.constituents[1].phase is 4", "enumerators"}},
-    {"phase -1", [](Frame& f) { setEnum(f.medium.constituents[0].phase, -1); },
+    {"phase -1",
+     [](Frame& f) { setEnum(f.medium.constituents[0].phase, -1); },
      {"medium.constituents[0].phase is -1", "enumerators"}},
     {"technique", [](Frame& f) { setEnum(f.settings.technique, 99); }, {"settings.technique is 99", "enumerators"}},
     {"filter", [](Frame& f) { setEnum(f.settings.shadowFilter, 2); }, {"settings.shadowFilter is 2", "enumerators"}},
@@ -182,7 +219,8 @@ TEST_CASE("a frame with a number that breaks its rule is refused, field and rule
         Frame broken = rig.frame;
         rule.set(broken, component, value);
         std::vector<std::string> words = {"Frame::" + rule.field + " is ", rule.rule};
-        if (std::abs(value) < 1e6 && value == std::floor(value)) words.push_back(std::to_string(static_cast<int>(value)));
+        if (std::abs(value) < 1e6 && value == std::floor(value))
+          words.push_back(std::to_string(static_cast<int>(value)));
         rig.checkRefused(broken, words);
       }
   rig.checkAccepted(rig.frame);
@@ -229,4 +267,21 @@ TEST_CASE("the ends of every range are accepted") {
   while (frame.lights.size() < 16)
     frame.lights.emplace_back();
   rig.checkAccepted(frame);
+}
+
+TEST_CASE("a view matrix that a general inverse has rounded is accepted") {
+  tests::RefusalRig rig;
+  for (int i = 0; i < 20; ++i) {
+    const glm::dvec3 eye(1.3 * i, 7 - 0.9 * i, 100.7 + i);
+    // A camera below a scaled node, as scene graphs have it.
+    const glm::mat4 worldFromView =
+        glm::mat4(glm::scale(glm::dmat4(1), glm::dvec3(0.01 * (i + 1))) *
+                  glm::inverse(glm::lookAt(eye, glm::dvec3(0.3, 0, 0), glm::dvec3(0, 1, 0))));
+    const glm::mat4 viewFromWorld = glm::inverse(worldFromView);
+    Frame frame = rig.frame;
+    frame.camera.viewFromWorld = mat4(&viewFromWorld[0][0]);
+    CAPTURE(frame.camera.viewFromWorld[3], frame.camera.viewFromWorld[7], frame.camera.viewFromWorld[11],
+            frame.camera.viewFromWorld[15] - 1);
+    rig.checkAccepted(frame);
+  }
 }

@@ -281,6 +281,20 @@ reference::ImageAnswer SceneRig::reference() const {
   return reference::mapExact(scene);
 }
 
+SceneRig threeLights() {
+  SceneRig rig;
+  rig.addLight(LightKind::Directional, Casters::Blocks, true);
+  rig.addLight(LightKind::Point);
+  rig.addLight(LightKind::Spot);
+  return rig;
+}
+
+void checkFinite(SceneRig& rig) {
+  const reference::ImageAnswer answer = rig.render();
+  CHECK(isFiniteAndNonNegative(answer.inscatter));
+  CHECK(isFiniteAndNonNegative(answer.transmittance));
+}
+
 double difference(const reference::Image& image, const reference::Image& expected) {
   const reference::ErrorMetrics metrics = reference::compare(image, expected);
   if (!std::isfinite(metrics.max)) return metrics.max;
@@ -301,7 +315,7 @@ bool bitEqual(const std::vector<float>& a, const std::vector<float>& b) {
 
 void transformWorld(Frame& frame, double scale, const glm::dvec3& offset) {
   const glm::dmat4 worldFromOld = glm::scale(glm::translate(glm::dmat4(1), offset), glm::dvec3(scale));
-  const glm::dmat4 oldFromWorld = glm::inverse(worldFromOld);
+  const glm::dmat4 oldFromWorld = glm::translate(glm::scale(glm::dmat4(1), glm::dvec3(1 / scale)), -offset);
   const auto move = [&](Vec3& point) {
     const glm::dvec3 p = glm::dvec3(worldFromOld * glm::dvec4(reference::toVec3(point), 1));
     point = {p.x, p.y, p.z};
@@ -310,7 +324,8 @@ void transformWorld(Frame& frame, double scale, const glm::dvec3& offset) {
   Camera& camera = frame.camera;
   const glm::dmat4 viewScale = glm::scale(glm::dmat4(1), glm::dvec3(scale));
   camera.viewFromWorld = toMat4(viewScale * reference::toMat4(camera.viewFromWorld) * oldFromWorld);
-  camera.clipFromView = toMat4(reference::toMat4(camera.clipFromView) * glm::inverse(viewScale));
+  camera.clipFromView =
+      toMat4(reference::toMat4(camera.clipFromView) * glm::scale(glm::dmat4(1), glm::dvec3(1 / scale)));
   for (Light& light : frame.lights) {
     move(light.position);
     move(light.boundary.point);

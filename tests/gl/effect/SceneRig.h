@@ -90,6 +90,12 @@ private:
 /// A light's own shadow views as addLight() makes them, for the light's position and direction.
 std::vector<tyndall::ShadowView> shadowViewsOf(const tyndall::Light& light);
 
+/// A directional light with glass, a point and a spot light.
+SceneRig threeLights();
+
+/// Renders; all of both outputs must be finite and >= 0.
+void checkFinite(SceneRig& rig);
+
 /// Largest difference, relative to the expected value or to the mean of all of them, whichever is larger; infinite if a
 /// value is not finite.
 double difference(const reference::Image& image, const reference::Image& expected);

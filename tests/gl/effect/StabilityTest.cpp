@@ -1,21 +1,19 @@
-// Where formulas break: singular positions, aligned directions, extreme scales, NaN and Inf in what the engine hands in.
-// Everything stays finite, keeps to its own pixel, and equals the reference where that is finite.
+// Where formulas break: singular positions, aligned directions, extreme scales, NaN and Inf in what the engine hands
+// in. Everything stays finite, keeps to its own pixel, and equals the reference where that is finite.
 #include "SceneRig.h"
-#include "gl/ReadBack.h"
 #include "reference/CameraRays.h"
+#include "reference/Metrics.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <limits>
 
 using namespace tyndall;
 
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 constexpr int kX = 10, kY = 7; // the pixel that things happen to
 
 const std::vector<LightKind> kKinds = {LightKind::Directional, LightKind::Point, LightKind::Spot};
@@ -40,9 +38,10 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Largest error relative to the value or to the image's median, where the reference is finite.
+// Largest error relative to the value or to the image's median, where the reference is finite. What float32 holds in
+// few bits or not at all counts as 0.
 double errorWhereFinite(const reference::Image& image, const reference::Image& truth) {
-  const double scale = median(truth.rgb);
+  const double scale = std::max(median(truth.rgb), 1e-32);
   double worst = 0;
   for (std::size_t i = 0; i < truth.rgb.size(); ++i) {
     const double error = std::abs(image.rgb[i] - truth.rgb[i]);
@@ -52,33 +51,9 @@ double errorWhereFinite(const reference::Image& image, const reference::Image& t
   return worst;
 }
 
-void checkFinite(tests::SceneRig& rig) {
-  const reference::ImageAnswer answer = rig.render();
-  CHECK(tests::isFiniteAndNonNegative(answer.inscatter));
-  CHECK(tests::isFiniteAndNonNegative(answer.transmittance));
-}
-
 void checkAgainstReference(tests::SceneRig& rig, double tolerance) {
-  checkFinite(rig);
+  tests::checkFinite(rig);
   CHECK(errorWhereFinite(rig.outputs().inscatter, rig.reference().inscatter) <= tolerance);
-}
-
-// Everything of the pixel (kX, kY) put aside: the rest must be equal bit by bit.
-void checkEqualElsewhere(const std::vector<double>& image, const std::vector<double>& expected, std::size_t channels) {
-  REQUIRE(image.size() == expected.size());
-  const std::size_t own = static_cast<std::size_t>(kY * 24 + kX);
-  std::size_t different = 0;
-  for (std::size_t i = 0; i < image.size(); ++i)
-    if (i / channels != own && image[i] != expected[i]) ++different;
-  CHECK(different == 0);
-}
-
-tests::SceneRig threeLights() {
-  tests::SceneRig rig;
-  rig.addLight(LightKind::Directional, tests::Casters::Blocks, true);
-  rig.addLight(LightKind::Point);
-  rig.addLight(LightKind::Spot);
-  return rig;
 }
 
 } // namespace
@@ -99,85 +74,6 @@ TEST_CASE("a scene of another unit gives the same picture") {
         const reference::ImageAnswer answer = rig.render();
         CHECK(tests::difference(answer.inscatter, expected.inscatter) <= 1e-4);
         CHECK(tests::difference(answer.transmittance, expected.transmittance) <= 1e-5);
-      }
-}
-
-TEST_CASE("odd depth values stay in their own pixel") {
-  for (const bool reversed : {true, false}) {
-    tests::SceneRig rig = threeLights();
-    tests::DepthConvention convention = rig.convention();
-    convention.reversed = reversed;
-    rig.setConvention(convention);
-    const std::vector<float> back(4 * 24 * 16, 0.5F);
-    const host::GlTexture colour = rig.makeColour(GL_RGBA32F, back);
-    const auto readColour = [&] {
-      const std::vector<float> values = host::readColour(colour.name(), 24, 16);
-      return std::vector<double>(values.begin(), values.end());
-    };
-    const reference::ImageAnswer expected = rig.render();
-    const std::vector<double> expectedColour = readColour();
-    const std::vector<float> depth = rig.depth();
-    for (const float odd : {kNan, kInf, -kInf, -1.0F, 2.0F, 1e30F, 1e-40F}) {
-      CAPTURE(reversed, odd);
-      std::vector<float> broken = depth;
-      broken[kY * 24 + kX] = odd;
-      rig.setDepth(broken);
-      const host::GlTexture target = rig.makeColour(GL_RGBA32F, back);
-      const reference::ImageAnswer answer = rig.render();
-      const std::vector<float> composite = host::readColour(target.name(), 24, 16);
-      checkEqualElsewhere(answer.inscatter.rgb, expected.inscatter.rgb, 3);
-      checkEqualElsewhere(answer.transmittance.rgb, expected.transmittance.rgb, 3);
-      checkEqualElsewhere({composite.begin(), composite.end()}, expectedColour, 4);
-      CHECK(tests::isFiniteAndNonNegative(answer.inscatter));
-      CHECK(tests::isFiniteAndNonNegative(answer.transmittance));
-      if (std::isnan(odd)) { // left as it is
-        CHECK(answer.inscatter.at(kX, kY) == glm::dvec3(0));
-        CHECK(answer.transmittance.at(kX, kY) == glm::dvec3(1));
-        for (std::size_t c = 0; c < 4; ++c)
-          CHECK(composite[4 * (kY * 24 + kX) + c] == 0.5F);
-      }
-    }
-  }
-}
-
-TEST_CASE("NaN and Inf in the colour stay in their own pixel") {
-  tests::SceneRig rig = threeLights();
-  for (const bool outputs : {false, true})
-    for (const float odd : {kNan, kInf, -kInf}) {
-      CAPTURE(outputs, odd);
-      std::vector<std::vector<double>> pictures;
-      for (const bool broken : {false, true}) {
-        std::vector<float> back(4 * 24 * 16, 0.5F);
-        if (broken) back[4 * (kY * 24 + kX) + 1] = odd;
-        const host::GlTexture colour = rig.makeColour(GL_RGBA16F, back);
-        Frame frame = rig.frame;
-        if (!outputs) frame.output = {};
-        REQUIRE(tests::testEffect().render(frame));
-        const std::vector<float> values = host::readColour(colour.name(), 24, 16);
-        pictures.emplace_back(values.begin(), values.end());
-      }
-      checkEqualElsewhere(pictures[1], pictures[0], 4);
-    }
-}
-
-TEST_CASE("NaN and Inf in a shadow or glass map stay finite in the picture") {
-  for (const LightKind kind : kKinds)
-    for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear})
-      for (const float odd : {kNan, kInf, -kInf, -3.0F, 1e30F}) {
-        CAPTURE(static_cast<int>(kind), static_cast<int>(filter), odd);
-        tests::SceneRig rig;
-        Light& light = rig.addLight(kind, tests::Casters::Blocks, true);
-        rig.frame.settings.shadowFilter = filter;
-        reference::ShadowImage image = rig.shadow(0);
-        for (std::size_t i = 0; i < image.depth.size(); ++i) {
-          if (i % 3 == 0) image.depth[i] = odd;
-          if (i % 5 == 0) image.glassDepth[i] = odd;
-          if (i % 7 == 0) image.glassColour[3 * i + i % 3] = odd;
-        }
-        tests::ShadowRig maps; // R32F holds anything
-        maps.image = image;
-        maps.upload(light, true, GL_R32F);
-        checkFinite(rig);
       }
 }
 
@@ -202,7 +98,7 @@ TEST_CASE("a point light at the eye, on a ray, at a surface or behind it") {
         light.position = toVec3(ray.at(place.alongRay(rig)));
         if (casters == tests::Casters::Blocks) light.shadow.views = tests::shadowViewsOf(light);
         if (place.alongRay(rig) == 0.0)
-          checkFinite(rig); // every ray runs through the light: infinite but for the floor of 1 / h
+          tests::checkFinite(rig); // every ray runs through the light: infinite but for the floor of 1 / h
         else
           checkAgainstReference(rig, 1e-3);
       }
@@ -220,7 +116,7 @@ TEST_CASE("a spot light aimed along or against the view ray") {
         light.direction = toVec3(sign * ray.direction);
         light.shadow.views = tests::shadowViewsOf(light);
         if (along == 0.0 && sideways < 0.1)
-          checkFinite(rig);
+          tests::checkFinite(rig);
         else
           checkAgainstReference(rig, 1e-3);
       }
@@ -238,7 +134,15 @@ TEST_CASE("a sun along, against and perpendicular to the view axis") {
         light.direction = toVec3(sign * glm::dvec3(worldFromView[axis]));
         light.shadow.views = tests::shadowViewsOf(light);
         rig.frame.settings.shadowFilter = filter;
-        checkAgainstReference(rig, filter == ShadowFilter::Nearest ? 1e-3 : 2e-2);
+        if (filter == ShadowFilter::Nearest) {
+          checkAgainstReference(rig, 1e-3);
+          continue;
+        }
+        tests::checkFinite(rig);
+        const reference::ErrorMetrics error = reference::compare(rig.outputs().inscatter, rig.reference().inscatter);
+        INFO(error.text());
+        CHECK(error.rRmse <= 1e-3);
+        CHECK(error.p99 <= 5e-3);
       }
 }
 
@@ -259,8 +163,8 @@ TEST_CASE("a camera on a shadow view's near plane, far plane and plane of no pro
                           glm::lookAt(position, position + axis, glm::dvec3(0, 1, 0)));
       } else {
         const glm::dmat4 view = glm::lookAt(eye, eye + reference::toVec3(light.direction), glm::dvec3(0, 1, 0));
-        light.shadow.views[0].clipFromWorld =
-            tests::toMat4(glm::ortho(-6.0, 6.0, -6.0, 6.0, share == 1.0 ? -20.0 : 0.0, share == 1.0 ? 0.0 : 20.0) * view);
+        light.shadow.views[0].clipFromWorld = tests::toMat4(
+            glm::ortho(-6.0, 6.0, -6.0, 6.0, share == 1.0 ? -20.0 : 0.0, share == 1.0 ? 0.0 : 20.0) * view);
       }
       checkAgainstReference(rig, 1e-3);
     }
@@ -288,7 +192,7 @@ TEST_CASE("rays along the shadow map's axes and exactly on texel borders") {
       at(-1e-5);
       const reference::Image left = rig.reference().inscatter;
       at(0);
-      checkFinite(rig);
+      tests::checkFinite(rig);
       const reference::Image image = rig.outputs().inscatter;
       const double slack = (filter == ShadowFilter::Nearest ? 1e-3 : 2e-2) * median(right.rgb);
       for (std::size_t i = 0; i < image.rgb.size(); ++i) {
@@ -337,16 +241,40 @@ TEST_CASE("values at the ends of float32 stay finite") {
     std::function<void(Frame&)> set;
   };
   const std::vector<Extreme> extremes = {
-      {"bright", [](Frame& f) { f.lights[0].colour = {3e38F, 3e38F, 1e-38F}; }},
-      {"far light", [](Frame& f) { f.lights[0].position = {1e30, -1e25, 3e38}; }},
-      {"light beyond float32", [](Frame& f) { f.lights[0].position = {1e200, 0, 0}; }},
-      {"long direction", [](Frame& f) { f.lights[0].direction = {1e200, -3e250, 1e100}; }},
-      {"short direction", [](Frame& f) { f.lights[0].direction = {1e-200, -3e-250, 1e-200}; }},
+      {"bright",
+       [](Frame& f) {
+         f.lights[0].colour = {3e38F, 3e38F, 1e-38F};
+       }},
+      {"far light",
+       [](Frame& f) {
+         f.lights[0].position = {1e30, -1e25, 3e38};
+       }},
+      {"light beyond float32",
+       [](Frame& f) {
+         f.lights[0].position = {1e200, 0, 0};
+       }},
+      {"long direction",
+       [](Frame& f) {
+         f.lights[0].direction = {1e200, -3e250, 1e100};
+       }},
+      {"short direction",
+       [](Frame& f) {
+         f.lights[0].direction = {1e-200, -3e-250, 1e-200};
+       }},
       {"long range", [](Frame& f) { f.lights[0].range = 1e300; }},
       {"short range", [](Frame& f) { f.lights[0].range = 1e-300; }},
-      {"thin", [](Frame& f) { f.medium.constituents[0].scattering = {1e-38F, 1e-45F, 1e-30F}; }},
-      {"thick", [](Frame& f) { f.medium.constituents[0].scattering = {1e30F, 3e38F, 1e20F}; }},
-      {"black", [](Frame& f) { f.medium.absorption = {3e38F, 3e38F, 3e38F}; }},
+      {"thin",
+       [](Frame& f) {
+         f.medium.constituents[0].scattering = {1e-38F, 1e-45F, 1e-30F};
+       }},
+      {"thick",
+       [](Frame& f) {
+         f.medium.constituents[0].scattering = {1e30F, 3e38F, 1e20F};
+       }},
+      {"black",
+       [](Frame& f) {
+         f.medium.absorption = {3e38F, 3e38F, 3e38F};
+       }},
       {"thick and black",
        [](Frame& f) {
          f.medium.constituents[0].scattering = f.medium.constituents[1].scattering = {3e38F, 3e38F, 3e38F};
@@ -364,6 +292,6 @@ TEST_CASE("values at the ends of float32 stay finite") {
         tests::SceneRig rig;
         rig.addLight(kind, casters);
         extreme.set(rig.frame);
-        checkFinite(rig);
+        tests::checkFinite(rig);
       }
 }

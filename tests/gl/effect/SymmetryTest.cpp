@@ -1,5 +1,5 @@
-// What must cancel, mirror or add up, without a reference: glass that tints nothing, maps all lit and all dark, mirrored
-// scenes, a shadow map and its complement.
+// What must cancel, mirror or add up, without a reference: glass that tints nothing, maps all lit and all dark,
+// mirrored scenes, a shadow map and its complement.
 #include "SceneRig.h"
 #include "reference/CameraRays.h"
 
@@ -42,7 +42,7 @@ reference::Image mirrored(const reference::Image& image) {
 
 std::vector<float> flippedRows(const std::vector<float>& values, int width, int channels) {
   std::vector<float> result(values.size());
-  const std::size_t stride = static_cast<std::size_t>(width * channels);
+  const std::size_t stride = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
   for (std::size_t row = 0; row < values.size() / stride; ++row)
     for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x)
       for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c)
@@ -69,7 +69,8 @@ TEST_CASE("black glass equals a caster where the glass is") {
   forEveryLightAndFilter([](tests::SceneRig& rig, LightKind kind) {
     rig.addLight(kind, tests::Casters::AllLit, true);
     reference::ShadowImage image = rig.shadow(0);
-    std::fill(image.glassColour.begin(), image.glassColour.end(), 0.0F);
+    for (std::size_t i = 0; i < image.glassColour.size(); ++i)
+      image.glassColour[i] = image.glassDepth[i / 3] < 1 ? 0.0F : 1.0F;
     rig.setShadow(0, image);
     const reference::ImageAnswer glazed = rig.render();
     rig.frame.lights[0].glass = {};
@@ -87,7 +88,8 @@ TEST_CASE("a map without casters equals no map") {
     addHighLight(rig, kind, tests::Casters::AllLit).litOutsideViews = true;
     const reference::ImageAnswer mapped = rig.render();
     rig.frame.lights[0].shadow = {};
-    CHECK(tests::difference(mapped.inscatter, rig.render().inscatter) <= 1e-6);
+    // The faces of a point light divide the ray, and with it the quadrature.
+    CHECK(tests::difference(mapped.inscatter, rig.render().inscatter) <= (kind == LightKind::Point ? 1e-5 : 1e-6));
   });
 }
 
@@ -106,6 +108,7 @@ TEST_CASE("a shadow map and its complement add up to the unshadowed light") {
   forEveryLightAndFilter([](tests::SceneRig& rig, LightKind kind) {
     Light& light = addHighLight(rig, kind, tests::Casters::Blocks);
     light.litOutsideViews = false;
+    rig.frame.medium.farDistance = 12; // inside the views
     reference::ShadowImage image = rig.shadow(0);
     for (float& depth : image.depth)
       depth = depth < 1 ? 0.0F : 1.0F;
@@ -143,7 +146,8 @@ TEST_CASE("a mirrored scene gives the mirrored picture, with the map's texels mi
         image.glassColour = flippedRows(image.glassColour, image.width, 3);
         rig.setShadow(0, image);
       }
-      rig.frame.camera.viewFromWorld = tests::toMat4(mirror * reference::toMat4(rig.frame.camera.viewFromWorld) * mirror);
+      rig.frame.camera.viewFromWorld =
+          tests::toMat4(mirror * reference::toMat4(rig.frame.camera.viewFromWorld) * mirror);
       std::reverse(rig.distances.begin(), rig.distances.end()); // both ways, then rows back
       for (int y = 0; y < rig.frame.height / 2; ++y)
         std::swap_ranges(rig.distances.begin() + y * rig.frame.width, rig.distances.begin() + (y + 1) * rig.frame.width,

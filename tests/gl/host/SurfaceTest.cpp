@@ -85,6 +85,31 @@ TEST_CASE("surfaces have two sides", "[surface]") {
   checkRgb(render(scene, {sun({0, 0, 1}, {1, 1, 1})}).at(kMiddle), glm::dvec3(0));
 }
 
+TEST_CASE("light fades out evenly where the face turns away and the shading normal does not", "[surface]") {
+  tests::testContext();
+  const glm::vec3 normal(0.6F, 0, 0.8F);
+  host::Scene scene = tests::emptyScene();
+  addWall(scene, 0, 2);
+  for (host::Vertex& vertex : scene.meshes[0].primitives[0].vertices)
+    vertex.normal = normal;
+  const auto radianceAt =
+      [&](double degrees) { // of the light from the face's normal, to the side of the shading normal
+        const glm::dvec3 toLight(std::sin(glm::radians(degrees)), 0, std::cos(glm::radians(degrees)));
+        return render(scene, {sun({-toLight.x, -toLight.y, -toLight.z}, {1, 1, 1})}).at(kMiddle).r * kPi;
+      };
+  CHECK(radianceAt(0) ==
+        Approx(0.8).epsilon(1e-5)); // as Lambert has it: the face sees the light better than the normal
+  double last = radianceAt(60);
+  for (double degrees = 62; degrees < 90; degrees += 2) {
+    const double radiance = radianceAt(degrees);
+    CHECK(radiance < last);
+    CHECK(radiance > last - 0.06);
+    last = radiance;
+  }
+  CHECK(radianceAt(89.9) < 0.003);
+  CHECK(radianceAt(90.1) == 0);
+}
+
 TEST_CASE("base colour textures are sRGB", "[surface]") {
   tests::testContext();
   host::Scene scene = tests::emptyScene();

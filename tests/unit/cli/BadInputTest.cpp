@@ -65,6 +65,9 @@ TEST_CASE("tyndall-render takes only whole numbers within their ranges") {
     checkUsageError({"triangle.gltf", "--shadow-size", size}, "--shadow-size " + size);
   for (const std::string count : {"0", "5", "two"})
     checkUsageError({"triangle.gltf", "--cascades", count}, "--cascades " + count);
+  for (const std::string count : {"0", "9", "1.5", "-2"})
+    checkUsageError({"triangle.gltf", "--supersample", count}, "--supersample " + count);
+  checkUsageError({"triangle.gltf", "--size", "4097x10", "--supersample", "4"}, "--supersample 4");
   for (const std::string repeat : {"0", "-1", "3x", "10001"})
     checkUsageError({"triangle.gltf", "--repeat", repeat}, "--repeat " + repeat);
   for (const std::string exposure : {"nan", "inf", "1e400", "101", "bright"})

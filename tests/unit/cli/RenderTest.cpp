@@ -111,6 +111,19 @@ TEST_CASE("tyndall-render writes statistics") {
   CHECK(stats.size() == 10);
 }
 
+TEST_CASE("with --supersample an EXR keeps every pixel and a PNG their mean") {
+  const tests::ToolFolder folder;
+  REQUIRE(
+      folder.run(viewWith({"--supersample", "3", "--out", "a.exr", "--out", "a.png", "--stats", "s.json"})).exitCode ==
+      0);
+  CHECK(host::readExr(folder.path("a.exr")).width == 3 * kSize);
+  CHECK(nlohmann::json::parse(folder.read("s.json")).at("size") == nlohmann::json({3 * kSize, 3 * kSize}));
+  const std::string png = folder.read("a.png");
+  REQUIRE(png.size() > 24);
+  for (const std::size_t side : {16, 20}) // width and height in the header, big-endian
+    CHECK(static_cast<unsigned char>(png[side + 2]) * 256 + static_cast<unsigned char>(png[side + 3]) == kSize);
+}
+
 TEST_CASE("a medium that does nothing leaves the passes skipped and the composite as it was") {
   const tests::ToolFolder folder;
   folder.write("m.json", R"({"constituents": [], "absorption": [0, 0, 0]})");
@@ -154,8 +167,9 @@ TEST_CASE("help and version answer on standard output") {
   const tests::ToolResult help = folder.run({"--help"});
   CHECK(help.exitCode == 0);
   CHECK(help.err.empty());
-  for (const char* option : {"--camera", "--eye", "--sun", "--size", "--profile", "--technique", "--medium",
-                             "--shadow-size", "--frames", "--repeat", "--context", "--out", "--stats", "1e30"})
+  for (const char* option :
+       {"--camera", "--eye", "--sun", "--size", "--supersample", "--profile", "--technique", "--medium",
+        "--shadow-size", "--frames", "--repeat", "--context", "--out", "--stats", "1e30"})
     CHECK(help.out.find(option) != std::string::npos);
   const tests::ToolResult version = folder.run({"--version"});
   CHECK(version.exitCode == 0);

@@ -16,7 +16,7 @@ GltfFile animated(const char* path, const char* interpolation, const std::vector
   const bool isRotation = std::string(path) == "rotation";
   const int input = file.floats(times, "SCALAR", 1);
   const int output = isRotation ? file.floats(values, "VEC4", 4) : file.floats(values, "VEC3", 3);
-  file.json["nodes"] = {nlohmann::json::object()};
+  file.json["nodes"] = nlohmann::json::array({nlohmann::json::object()});
   file.json["animations"] = {{{"samplers", {{{"input", input}, {"output", output}, {"interpolation", interpolation}}}},
                               {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}}}}}};
   return file;

@@ -30,9 +30,10 @@ glm::vec3 firstPosition(const GltfFile& file) {
 }
 
 /// A file with a point whose position accessor is the given one.
-GltfFile point(GltfFile file, int accessor) {
-  file.show({{"attributes", {{"POSITION", accessor}}}, {"mode", 0}});
-  return file;
+GltfFile point(const GltfFile& file, int accessor) {
+  GltfFile result = file;
+  result.show({{"attributes", {{"POSITION", accessor}}}, {"mode", 0}});
+  return result;
 }
 
 } // namespace

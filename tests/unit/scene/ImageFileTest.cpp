@@ -76,6 +76,16 @@ TEST_CASE("Channels are taken from interleaved pixels, bottom row first if so", 
   CHECK(*image.find("down") == std::vector<float>{10, 11, 12, 13});
 }
 
+TEST_CASE("A supersampled picture is the mean of what a display would show", "[scene][image]") {
+  // 2 x 1 pixels of 2 x 2 each: half of the first is far brighter than white, the second is black.
+  std::vector<float> rgb(2 * 2 * 2 * 3, 0.0F);
+  for (const int pixel : {0, 5})
+    for (int c = 0; c < 3; ++c)
+      rgb[static_cast<std::size_t>(3 * pixel + c)] = 1e4F;
+  const std::vector<std::uint8_t> bytes = host::toneMap(rgb.data(), 2, 1, 1, 2);
+  CHECK(bytes == std::vector<std::uint8_t>{188, 188, 188, 0, 0, 0}); // sRGB of half the display's light
+}
+
 TEST_CASE("Images that are malformed are not written", "[scene][image]") {
   const TemporaryFolder folder;
   const auto message = [&](const host::Image& image) {

@@ -149,6 +149,11 @@ TEST_CASE("the default camera stands inside a closed room") {
   const glm::dvec3 eye(glm::inverse(host::fromMat4(camera.viewFromWorld))[3]);
   CHECK(glm::distance(eye, {9, 2, 0}) < 1e-9);
   CHECK(glm::length(glm::dvec2(ndcOf(camera, {-10, 2, 0}))) < 1e-9);
+
+  const std::vector<tyndall::Light> lights = {host::makeSun({0, -1, 0})};
+  const glm::vec3 indoors = host::skyOf(scene, tests::restPose(scene), lights, notes);
+  const glm::vec3 outdoors = host::skyOf({}, {}, lights, notes);
+  CHECK(indoors.g < 0.2F * outdoors.g);
 }
 
 TEST_CASE("an empty scene has a default camera, sun and medium") {
@@ -157,18 +162,35 @@ TEST_CASE("an empty scene has a default camera, sun and medium") {
   const tyndall::Camera camera = host::makeDefaultCamera(scene, {}, 1, {}, notes);
   for (const double element : camera.viewFromWorld)
     CHECK(std::isfinite(element));
-  CHECK(host::makeLights(scene, {}, notes).size() == 1);
+  const std::vector<tyndall::Light> lights = host::makeLights(scene, {}, notes);
+  CHECK(lights.size() == 1);
   CHECK(std::isfinite(host::mediumOf(scene, {}, notes).constituents.at(0).scattering[0]));
-  CHECK(glm::length(host::skyOf(scene, notes)) > 0);
+  CHECK(glm::length(host::skyOf(scene, {}, lights, notes)) > 0);
   CHECK(notes.size() == 4);
 }
 
-TEST_CASE("a scene with lights and without a sky has a black one") {
+TEST_CASE("a scene without a sky gets one as bright as its suns make it, or a black one under lamps") {
   host::Notes notes;
-  CHECK(host::skyOf(sceneWithLights(1), notes) == glm::vec3(0));
-  host::Scene scene;
+  host::Scene scene = sceneWithLights(2);
+  const auto sky = [&] {
+    const tests::Pose pose = tests::restPose(scene);
+    return host::skyOf(scene, pose, host::makeLights(scene, pose, notes), notes);
+  };
+  CHECK(sky() == glm::vec3(0));
+  CHECK(notes.empty());
+
+  scene.lights[0].kind = tyndall::LightKind::Directional;
+  const glm::vec3 one = sky();
+  CHECK(std::min({one.r, one.g, one.b}) > 0);
+  CHECK(std::max({one.r, one.g, one.b}) < 1);
+  REQUIRE(notes.size() == 1);
+  CHECK(notes[0].find("scene has no sky") == 0);
+  scene.lights[0].colour *= 7.0F;
+  CHECK(glm::distance(sky(), 7.0F * one) < 1e-5F * glm::length(one));
+
+  notes.clear();
   scene.skyRadiance = {1, 2, 3};
-  CHECK(host::skyOf(scene, notes) == glm::vec3(1, 2, 3));
+  CHECK(sky() == glm::vec3(1, 2, 3));
   CHECK(notes.empty());
 }
 
@@ -213,6 +235,7 @@ TEST_CASE("the default medium lets three quarters through the bounds' diagonal, 
     REQUIRE(medium.constituents.size() == 1);
     const double extinction = medium.constituents[0].scattering[1] + medium.absorption[1];
     CHECK(std::exp(-extinction * 13 * scale) == Approx(0.75).epsilon(1e-6));
+    CHECK(medium.farDistance == Approx(2 * 13 * scale));
     CHECK(notes.size() == 1);
   }
   host::Scene scene;

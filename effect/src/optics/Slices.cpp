@@ -1,0 +1,192 @@
+#include "optics/Slices.h"
+
+#include "optics/Blocks.h"
+#include "optics/Matrices.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace tyndall::optics {
+
+namespace {
+
+using glm::dvec2;
+using glm::dvec3;
+using glm::dvec4;
+
+// The border of the image through its outermost pixel centres, as an arc from the low corner: bottom, right, top, left.
+struct Border {
+  dvec2 low, high;
+  dvec2 size() const { return high - low; }
+  double perimeter() const { return 2 * (size().x + size().y); }
+  double length(int side) const { return side % 2 == 0 ? size().x : size().y; }
+  double start(int side) const {
+    double sum = 0;
+    for (int i = 0; i < side; ++i)
+      sum += length(i);
+    return sum;
+  }
+  dvec2 at(double arc) const {
+    arc = std::fmod(arc, std::max(perimeter(), 1e-300));
+    const dvec2 s = size();
+    if (arc < s.x) return {low.x + arc, low.y};
+    if (arc < s.x + s.y) return {high.x, low.y + (arc - s.x)};
+    if (arc < 2 * s.x + s.y) return {high.x - (arc - s.x - s.y), high.y};
+    return {low.x, high.y - (arc - 2 * s.x - s.y)};
+  }
+};
+
+// Homogeneous window position, in pixels, of what the light comes from: the position, or the direction against its
+// travel.
+dvec3 epipoleOf(const Frame& frame, const Light& light) {
+  const glm::dmat4 clipFromWorld = toGlm(frame.camera.clipFromView) * toGlm(frame.camera.viewFromWorld);
+  const dvec4 clip = light.kind == LightKind::Directional
+                         ? clipFromWorld * dvec4(-glm::normalize(toGlm(light.direction)), 0)
+                         : clipFromWorld * dvec4(toGlm(light.position), 1);
+  const dvec3 window(0.5 * (clip.x + clip.w) * frame.width, 0.5 * (clip.y + clip.w) * frame.height, clip.w);
+  const double size =
+      std::max({std::abs(window.x) / frame.width, std::abs(window.y) / frame.height, std::abs(window.z)});
+  return size > 0 ? window / size : dvec3(0, 0, 1); // any factor cancels; a light at the eye has no epipole
+}
+
+dvec2 directionAt(const dvec3& epipole, const dvec2& p) {
+  return (epipole.z < 0 ? -1.0 : 1.0) * (epipole.z * p - dvec2(epipole));
+}
+
+// Which sides lines leave the image through; the direction's component across a side is the same all along it.
+std::array<bool, 4> exitSides(const dvec3& epipole, const Border& border) {
+  const dvec2 low = directionAt(epipole, border.low), high = directionAt(epipole, border.high);
+  return {low.y<0, high.x> 0, high.y > 0, low.x < 0};
+}
+
+// The entry of the line that leaves at `exit`: the epipole if it lies in the image, else the point where it comes in.
+dvec2 entryOf(const dvec3& epipole, const Border& border, const dvec2& exit) {
+  const dvec2 d = directionAt(epipole, exit);
+  // Backwards from the exit by a share t of d; the epipole is at t = 1 / |w|.
+  double t = std::abs(epipole.z) > 0 ? 1 / std::abs(epipole.z) : 1e300;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (d[axis] > 0) t = std::min(t, (exit[axis] - border.low[axis]) / d[axis]);
+    if (d[axis] < 0) t = std::min(t, (exit[axis] - border.high[axis]) / d[axis]);
+  }
+  return glm::clamp(exit - d * std::max(t, 0.0), border.low, border.high);
+}
+
+// The camera ray through a window position, relative to the camera's origin.
+struct CameraRays {
+  dvec3 origin;
+  glm::dmat4 cameraFromClip;
+  bool orthographic;
+  dvec2 size;
+
+  explicit CameraRays(const Frame& frame)
+      : origin(cameraOrigin(frame.camera)), orthographic(isOrthographic(toGlm(frame.camera.clipFromView))),
+        size(frame.width, frame.height) {
+    const glm::dmat4 clip =
+        depthFromClip(frame.camera.clipDepth) * toGlm(frame.camera.clipFromView) * toGlm(frame.camera.viewFromWorld);
+    cameraFromClip = glm::inverse(glm::translate(clip, origin));
+  }
+  // Two points of the ray, homogeneous: where it begins, and its direction.
+  void at(const dvec2& window, dvec4& begin, dvec4& direction) const {
+    const dvec2 ndc = 2.0 * window / size - 1.0;
+    const dvec4 middle = cameraFromClip * dvec4(ndc, 0.5, 1);
+    if (!orthographic) {
+      begin = dvec4(0, 0, 0, 1);
+      direction = dvec4(dvec3(middle) / middle.w, 0);
+      return;
+    }
+    const dvec4 other = cameraFromClip * dvec4(ndc, 0.25, 1);
+    begin = middle / middle.w;
+    direction = dvec4(dvec3(middle) / middle.w - dvec3(other) / other.w, 0);
+  }
+};
+
+struct Row {
+  glm::vec4 originStep{0, 0, 1, 0};
+  float texels = 0;
+};
+
+// The line that all rays of a slice follow in a view's map: through the texel positions of one ray's begin and
+// direction, clipped to the map, oriented as the rays run.
+Row rowOf(const glm::dmat4& texelFromCamera, const dvec4& begin, const dvec4& direction, int width, int height) {
+  const dvec4 a = texelFromCamera * begin, b = texelFromCamera * direction;
+  dvec2 along(b.x * a.w - a.x * b.w, b.y * a.w - a.y * b.w); // the sign of d(x / w), d(y / w)
+  const double greater = std::max(std::abs(along.x), std::abs(along.y));
+  Row row;
+  if (!(greater > 0)) { // the ray runs along the light: one texel
+    const dvec2 p = a.w != 0 ? dvec2(a) / a.w : dvec2(0);
+    row.originStep = glm::vec4(glm::floor(p), 1, 0);
+    row.texels = 1;
+    return row;
+  }
+  along /= greater;
+  // A finite point of the line: the foot of the map's centre on it. line.xy . p + line.z = 0.
+  const dvec3 line = glm::cross(dvec3(a.x, a.y, a.w), dvec3(b.x, b.y, b.w));
+  const dvec2 normal(line), centre(0.5 * width, 0.5 * height);
+  const double square = glm::dot(normal, normal);
+  if (!(square > 0)) return row;
+  const dvec2 point = centre - normal * ((glm::dot(normal, centre) + line.z) / square);
+  double low = -1e30, high = 1e30;
+  const dvec2 size(width, height);
+  for (int axis = 0; axis < 2; ++axis) {
+    if (along[axis] == 0) continue;
+    const double t0 = -point[axis] / along[axis], t1 = (size[axis] - point[axis]) / along[axis];
+    low = std::max(low, std::min(t0, t1));
+    high = std::min(high, std::max(t0, t1));
+  }
+  if (!(high > low)) return row; // the line misses the map
+  row.originStep = glm::vec4(point + low * along, along);
+  row.texels = static_cast<float>(std::min(std::ceil(high - low), static_cast<double>(std::max(width, height))));
+  return row;
+}
+
+} // namespace
+
+SliceTable makeSlices(const Frame& frame, const Light& light, int slices, int samples, int shadowWidth,
+                      int shadowHeight) {
+  const Border border{dvec2(0.5), dvec2(frame.width, frame.height) - 0.5};
+  const dvec3 epipole = epipoleOf(frame, light);
+  const std::array<bool, 4> exits = exitSides(epipole, border);
+  // The exit sides are neighbours; the first is one whose predecessor is none.
+  int first = 0;
+  for (int side = 0; side < 4; ++side)
+    if (exits[static_cast<std::size_t>(side)] && !exits[static_cast<std::size_t>((side + 3) % 4)]) first = side;
+  const bool closed = exits[0] && exits[1] && exits[2] && exits[3];
+  double visible = 0;
+  for (int side = 0; side < 4; ++side)
+    if (exits[static_cast<std::size_t>(side)]) visible += border.length(side);
+
+  SliceTable table;
+  table.slices = std::max(1, std::min(slices, static_cast<int>(std::ceil(visible))));
+  const auto count = static_cast<std::size_t>(table.slices);
+  const std::size_t views = light.shadow.texture ? light.shadow.views.size() : 0;
+  table.rows = static_cast<int>(2 + 2 * views);
+  table.texels.assign(count * static_cast<std::size_t>(table.rows), glm::vec4(0));
+  const double step = visible / table.slices;
+  const blocks::LightBlock lightMatrices = lightBlock(light, frame.camera, shadowWidth, shadowHeight);
+  const CameraRays rays(frame);
+  for (std::size_t i = 0; i < count; ++i) {
+    const dvec2 exit = border.at(border.start(first) + (static_cast<double>(i) + 0.5) * step);
+    const dvec2 entry = entryOf(epipole, border, exit);
+    const double length = glm::distance(entry, exit);
+    table.texels[i] = glm::vec4(entry, exit);
+    const double wanted = std::min(static_cast<double>(samples), std::ceil(length) + 1);
+    table.texels[count + i] = glm::vec4(wanted, length, 0, 0);
+    dvec4 begin, direction;
+    rays.at(exit, begin, direction);
+    for (std::size_t v = 0; v < views; ++v) {
+      const Row row = rowOf(glm::dmat4(lightMatrices.texelFromCamera[v]), begin, direction, shadowWidth, shadowHeight);
+      table.texels[(2 + 2 * v) * count + i] = row.originStep;
+      table.texels[(3 + 2 * v) * count + i] = glm::vec4(row.texels, 0, 0, 0);
+    }
+  }
+  blocks::EpipolarBlock& block = table.block;
+  block.epipole = glm::vec4(epipole, epipole.z < 0 ? -1 : 1);
+  block.border = glm::vec4(border.low, border.high);
+  block.sliceMap = glm::vec4(border.start(first), std::max(step, 1e-9), border.perimeter(), closed ? 1 : 0);
+  block.grid = glm::ivec4(table.slices, samples, 0, 0);
+  return table;
+}
+
+} // namespace tyndall::optics

@@ -1,0 +1,23 @@
+// The epipolar geometry of one light in double precision: where its slices run in the image and in the shadow map. The
+// epipole stays homogeneous; nothing divides by its w (DESIGN 1, rule 2).
+#pragma once
+
+#include "SharedBlocks.h"
+
+#include <tyndall/tyndall.h>
+#include <vector>
+
+namespace tyndall::optics {
+
+struct SliceTable {
+  int slices = 0;
+  int rows = 0;
+  std::vector<glm::vec4> texels; ///< slices x rows, see glsl/lib/slices.glsl
+  blocks::EpipolarBlock block{}; ///< epipole, border and sliceMap are filled in
+};
+
+/// At most `slices` slices of at most `samples` samples. shadowWidth, shadowHeight: texels, 0 without a shadow map.
+SliceTable makeSlices(const Frame& frame, const Light& light, int slices, int samples, int shadowWidth,
+                      int shadowHeight);
+
+} // namespace tyndall::optics

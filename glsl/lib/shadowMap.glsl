@@ -1,0 +1,51 @@
+// Texels of the light's shadow map and glass map, in one convention: depth grows away from the light.
+// SHADOW_ARRAY, FILTER_BILINEAR, GLASS: 0 or 1.
+
+#if SHADOW_ARRAY
+uniform sampler2DArray shadowMap;
+#define TEXEL(map, texel, view) texelFetch(map, ivec3(texel, viewLayer[view].x), 0)
+#else
+uniform sampler2D shadowMap;
+#define TEXEL(map, texel, view) texelFetch(map, texel, 0)
+#endif
+#if GLASS
+#if SHADOW_ARRAY
+uniform sampler2DArray glassColour;
+uniform sampler2DArray glassDepth;
+#else
+uniform sampler2D glassColour;
+uniform sampler2D glassDepth;
+#endif
+#endif
+
+// Depth stored in a texel, growing away from the light; a texel without a caster never blocks.
+float casterDepth(ivec2 texel, int view) {
+  float depth = viewDepth[view].z * TEXEL(shadowMap, texel, view).r;
+  return depth >= viewDepth[view].y ? 3e38 : depth;
+}
+
+#if GLASS
+float paneDepth(ivec2 texel, int view) { return viewDepth[view].z * TEXEL(glassDepth, texel, view).r; }
+// NaN and negative values count as black, values above 1 as clear.
+vec3 paneTint(ivec2 texel, int view) {
+  vec3 tint = TEXEL(glassColour, texel, view).rgb;
+  return mix(vec3(0.0), min(tint, vec3(1.0)), greaterThanEqual(tint, vec3(0.0)));
+}
+#endif
+
+// The four texels around a cell (bilinear), clamped to the edge: low x low y, high x low y, low x high y, both high.
+vec4 cornerDepths(ivec2 cell, int view) {
+  ivec2 last = viewCounts.zw - 1;
+  ivec2 low = max(cell, ivec2(0)), high = min(cell + 1, last);
+  return vec4(casterDepth(low, view), casterDepth(ivec2(high.x, low.y), view), casterDepth(ivec2(low.x, high.y), view),
+              casterDepth(high, view));
+}
+
+#if GLASS
+vec4 cornerPanes(ivec2 cell, int view) {
+  ivec2 last = viewCounts.zw - 1;
+  ivec2 low = max(cell, ivec2(0)), high = min(cell + 1, last);
+  return vec4(paneDepth(low, view), paneDepth(ivec2(high.x, low.y), view), paneDepth(ivec2(low.x, high.y), view),
+              paneDepth(high, view));
+}
+#endif

@@ -1,0 +1,26 @@
+// Pixel tree: every pixel, or every pixel that unwarp left, through the tree of its nearest slice (Chen 2011); one light,
+// one shadow view a draw. Reads the scene depth, slice table and row textures. Writes as exact.frag does.
+#include "shared.glsl"
+#include "lib/camera.glsl"
+#include "lib/phase.glsl"
+#include "lib/depth.glsl"
+#include "lib/airlight.glsl"
+#include "lib/slices.glsl"
+#include "lib/shadow.glsl"
+#include "lib/tree.glsl"
+#include "lib/row.glsl"
+
+#if COMPOSITE
+layout(location = 0, index = 0) out vec4 outInscatter;
+layout(location = 0, index = 1) out vec4 outTransmittance;
+#else
+layout(location = 0) out vec4 outInscatter;
+layout(location = 1) out vec4 outTransmittance;
+#endif
+
+void main() {
+  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy), 0)), 0.0);
+  int slice = neighbourSlices(sliceCoordinate(gl_FragCoord.xy) + 0.5).x;
+  outInscatter = vec4(min(lightColour.rgb * vec3(rowShadowedLight(cameraRay(gl_FragCoord.xy), end, slice)), limits.xxx), 0.0);
+  outTransmittance = vec4(exp(-extinction.rgb * end), 1.0);
+}

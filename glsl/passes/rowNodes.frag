@@ -1,0 +1,18 @@
+// Row nodes: min and max of sixteen texels of each row, the finest level of the tree (level 2).
+// Reads rowDepths. Writes rowNodes: slices x texels / 16, RG32F.
+#include "shared.glsl"
+uniform sampler2D rowDepths;
+
+layout(location = 0) out vec4 outBounds;
+
+void main() {
+  ivec2 at = ivec2(int(gl_FragCoord.x), 4 * int(gl_FragCoord.y));
+  vec4 a = texelFetch(rowDepths, at, 0), b = texelFetch(rowDepths, at + ivec2(0, 1), 0);
+  vec4 c = texelFetch(rowDepths, at + ivec2(0, 2), 0), d = texelFetch(rowDepths, at + ivec2(0, 3), 0);
+  vec4 low = min(min(a, b), min(c, d)), high = max(max(a, b), max(c, d));
+#if FILTER_BILINEAR || GLASS
+  outBounds = vec4(low.x, high.y, 0.0, 0.0);
+#else
+  outBounds = vec4(min(min(low.x, low.y), min(low.z, low.w)), max(max(high.x, high.y), max(high.z, high.w)), 0.0, 0.0);
+#endif
+}

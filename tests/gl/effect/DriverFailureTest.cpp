@@ -1,0 +1,99 @@
+// A driver that fails to compile, to link, to render to a format or to find memory: a status, and nothing drawn.
+#include "FakeContext.h"
+#include "SceneRig.h"
+#include "gl/ReadBack.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tyndall;
+using tests::address;
+using tests::FakeContext;
+
+namespace {
+
+int failFrom = 0; // the call from which on the function below fails
+
+void GLAD_API_PTR refuseShaders(GLuint shader, GLenum name, GLint* value) {
+  host::gl().GetShaderiv(shader, name, value);
+  if (name == GL_COMPILE_STATUS) *value = GL_FALSE;
+}
+void GLAD_API_PTR refuseToLink(GLuint program, GLenum name, GLint* value) {
+  host::gl().GetProgramiv(program, name, value);
+  if (name == GL_LINK_STATUS && --failFrom <= 0) *value = GL_FALSE;
+}
+GLenum GLAD_API_PTR refuseFramebuffer(GLenum target) {
+  return --failFrom <= 0 ? GL_FRAMEBUFFER_UNSUPPORTED : host::gl().CheckFramebufferStatus(target);
+}
+GLenum GLAD_API_PTR runOutOfMemory() {
+  return host::gl().GetError() == GL_NO_ERROR ? GL_OUT_OF_MEMORY : GL_INVALID_ENUM;
+}
+
+struct FailingFrame {
+  tests::SceneRig scene;
+  std::vector<float> content = std::vector<float>(4 * 24 * 16, 0.5F);
+  host::GlTexture colour = scene.makeColour(GL_RGBA16F, content);
+  host::GlTexture inscatter, transmittance;
+
+  FailingFrame() {
+    scene.addLight(LightKind::Directional);
+    inscatter = tests::floatTexture(GL_RGBA32F, 24, 16, content);
+    transmittance = tests::floatTexture(GL_RGBA32F, 24, 16, content);
+    scene.frame.output = {inscatter.name(), transmittance.name()};
+  }
+  void check(Effect& effect, StatusCode code) {
+    const Status status = effect.render(scene.frame);
+    INFO(status.message);
+    CHECK(status.code == code);
+    CHECK_FALSE(status.message.empty());
+    CHECK(status.message.find('\0') == std::string::npos);
+    for (const host::GlTexture* target : {&colour, &inscatter, &transmittance})
+      CHECK(tests::bitEqual(host::readColour(target->name(), 24, 16), content));
+  }
+};
+
+} // namespace
+
+TEST_CASE("a shader that does not compile is reported and nothing is drawn") {
+  FailingFrame frame;
+  const FakeContext fake({}, {{"glGetShaderiv", address(refuseShaders)}});
+  const CreateResult result = fake.create();
+  REQUIRE(result.effect);
+  frame.check(*result.effect, StatusCode::ShaderError);
+  CHECK(result.effect->compileAll().code == StatusCode::ShaderError);
+}
+
+TEST_CASE("a program that does not link is reported and nothing is drawn, whichever pass it is of") {
+  FailingFrame frame;
+  const FakeContext fake({}, {{"glGetProgramiv", address(refuseToLink)}});
+  for (failFrom = 1; failFrom <= 2;) {
+    const int call = failFrom;
+    CAPTURE(call);
+    const CreateResult result = fake.create();
+    REQUIRE(result.effect);
+    frame.check(*result.effect, StatusCode::ShaderError);
+    failFrom = call + 1;
+  }
+}
+
+TEST_CASE("a framebuffer that the context refuses is reported and nothing is drawn, whichever pass it is of") {
+  FailingFrame frame;
+  const FakeContext fake({}, {{"glCheckFramebufferStatus", address(refuseFramebuffer)}});
+  for (failFrom = 1; failFrom <= 2;) {
+    const int call = failFrom;
+    CAPTURE(call);
+    const CreateResult result = fake.create();
+    REQUIRE(result.effect);
+    frame.check(*result.effect, StatusCode::InvalidFrame);
+    failFrom = call + 1;
+  }
+}
+
+TEST_CASE("running out of memory is reported and nothing is drawn") {
+  FailingFrame frame;
+  frame.scene.frame.output.transmittance = 0; // so that a target of the effect's own is needed
+  const FakeContext fake({}, {{"glGetError", address(runOutOfMemory)}});
+  const CreateResult result = fake.create();
+  REQUIRE(result.effect);
+  frame.check(*result.effect, StatusCode::OutOfMemory);
+  CHECK(result.effect->statistics().bytes < 16 * 24 * 16);
+}

@@ -1,0 +1,105 @@
+// NaN and Inf in what the engine hands in: everything keeps to its own pixel and the light stays finite.
+#include "SceneRig.h"
+#include "gl/ReadBack.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+using namespace tyndall;
+
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
+constexpr int kX = 10, kY = 7; // the pixel that things happen to
+
+// Everything of the pixel (kX, kY) put aside: the rest must be equal bit by bit.
+void checkEqualElsewhere(const std::vector<double>& image, const std::vector<double>& expected, std::size_t channels) {
+  REQUIRE(image.size() == expected.size());
+  const std::size_t own = static_cast<std::size_t>(kY * 24 + kX);
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < image.size(); ++i)
+    if (i / channels != own && image[i] != expected[i]) ++different;
+  CHECK(different == 0);
+}
+
+} // namespace
+
+TEST_CASE("odd depth values stay in their own pixel") {
+  for (const bool reversed : {true, false}) {
+    tests::SceneRig rig = tests::threeLights();
+    tests::DepthConvention convention = rig.convention();
+    convention.reversed = reversed;
+    rig.setConvention(convention);
+    const std::vector<float> back(4 * 24 * 16, 0.5F);
+    const host::GlTexture colour = rig.makeColour(GL_RGBA32F, back);
+    const auto readColour = [&] {
+      const std::vector<float> values = host::readColour(colour.name(), 24, 16);
+      return std::vector<double>(values.begin(), values.end());
+    };
+    const reference::ImageAnswer expected = rig.render();
+    const std::vector<double> expectedColour = readColour();
+    const std::vector<float> depth = rig.depth();
+    for (const float odd : {kNan, kInf, -kInf, -1.0F, 2.0F, 1e30F, 1e-40F}) {
+      CAPTURE(reversed, odd);
+      std::vector<float> broken = depth;
+      broken[kY * 24 + kX] = odd;
+      rig.setDepth(broken);
+      const host::GlTexture target = rig.makeColour(GL_RGBA32F, back);
+      const reference::ImageAnswer answer = rig.render();
+      const std::vector<float> composite = host::readColour(target.name(), 24, 16);
+      checkEqualElsewhere(answer.inscatter.rgb, expected.inscatter.rgb, 3);
+      checkEqualElsewhere(answer.transmittance.rgb, expected.transmittance.rgb, 3);
+      checkEqualElsewhere({composite.begin(), composite.end()}, expectedColour, 4);
+      CHECK(tests::isFiniteAndNonNegative(answer.inscatter));
+      CHECK(tests::isFiniteAndNonNegative(answer.transmittance));
+      if (std::isnan(odd)) { // left as it is
+        CHECK(answer.inscatter.at(kX, kY) == glm::dvec3(0));
+        CHECK(answer.transmittance.at(kX, kY) == glm::dvec3(1));
+        for (std::size_t c = 0; c < 4; ++c)
+          CHECK(composite[4 * (kY * 24 + kX) + c] == 0.5F);
+      }
+    }
+  }
+}
+
+TEST_CASE("NaN and Inf in the colour stay in their own pixel") {
+  tests::SceneRig rig = tests::threeLights();
+  for (const bool outputs : {false, true})
+    for (const float odd : {kNan, kInf, -kInf}) {
+      CAPTURE(outputs, odd);
+      std::vector<std::vector<double>> pictures;
+      for (const bool broken : {false, true}) {
+        std::vector<float> back(4 * 24 * 16, 0.5F);
+        if (broken) back[4 * (kY * 24 + kX) + 1] = odd;
+        const host::GlTexture colour = rig.makeColour(GL_RGBA16F, back);
+        Frame frame = rig.frame;
+        if (!outputs) frame.output = {};
+        REQUIRE(tests::testEffect().render(frame));
+        const std::vector<float> values = host::readColour(colour.name(), 24, 16);
+        pictures.emplace_back(values.begin(), values.end());
+      }
+      checkEqualElsewhere(pictures[1], pictures[0], 4);
+    }
+}
+
+TEST_CASE("NaN and Inf in a shadow or glass map stay finite in the picture") {
+  for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot})
+    for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear})
+      for (const float odd : {kNan, kInf, -kInf, -3.0F, 1e30F}) {
+        CAPTURE(static_cast<int>(kind), static_cast<int>(filter), odd);
+        tests::SceneRig rig;
+        Light& light = rig.addLight(kind, tests::Casters::Blocks, true);
+        rig.frame.settings.shadowFilter = filter;
+        reference::ShadowImage image = rig.shadow(0);
+        for (std::size_t i = 0; i < image.depth.size(); ++i) {
+          if (i % 3 == 0) image.depth[i] = odd;
+          if (i % 5 == 0) image.glassDepth[i] = odd;
+          if (i % 7 == 0) image.glassColour[3 * i + i % 3] = odd;
+        }
+        tests::ShadowRig maps; // R32F holds anything
+        maps.image = image;
+        maps.upload(light, true, GL_R32F);
+        tests::checkFinite(rig);
+      }
+}
