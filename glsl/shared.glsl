@@ -41,7 +41,7 @@ UNIFORM_BLOCK(EpipolarBlock) {
   vec4 epipole;       // homogeneous window position of the light (x, y, w), w: sign of w
   vec4 border;        // low x, low y, high x, high y
   vec4 sliceMap;      // arc length of the border where the slices begin, arc length per slice, perimeter; w: 1 if closed
-  vec4 thresholds;    // x: relative change of distance that is a break, y: least bilateral weight, z: 1 for the tree
+  vec4 thresholds;    // x: relative change of distance that is a break, y: least bilateral weight, z: bend of the inscatter that is refined
   ivec4 grid;         // slices, samples, texels of a row, levels of the tree
   ivec4 march;        // shadow view of a draw, its first table row; z: 1 for the draw that brings what is outside all views
 };

@@ -159,6 +159,8 @@ Status checkSettings(const Settings& settings) {
     return invalid("settings.samples", std::to_string(settings.samples), "must be a multiple of 64 from 64 to 8192");
   if (!(settings.breakThreshold > 0 && std::isfinite(settings.breakThreshold)))
     return invalid("settings.breakThreshold", text(settings.breakThreshold), "must be finite and > 0");
+  if (!(settings.bendThreshold > 0))
+    return invalid("settings.bendThreshold", text(settings.bendThreshold), "must be > 0");
   if (!(settings.leastWeight >= 0 && settings.leastWeight <= 1))
     return invalid("settings.leastWeight", text(settings.leastWeight), "must be 0 to 1");
   return {};

@@ -1,5 +1,7 @@
 #include "Targets.h"
 
+#include "gl/Program.h"
+
 namespace tyndall {
 
 namespace {
@@ -27,6 +29,7 @@ constexpr Row kRows[] = {
     {"slice table", kRgba32, kRgba32, "slices x (2 + 2 views)", "the slices' geometry, computed in double"},
     {"sample ends", kR32, kR32, "slices x samples", "distance along the camera ray; float, for breaks and the march"},
     {"marks", kRgba32, kRgba32, "slices x samples / 64", "four masks of 16 samples, integers as floats"},
+    {"refined marks", kRgba32, kRgba32, "slices x samples / 64", "the marks with those of the refinement"},
     {"marched", kRgba16, kR32, "slices x (samples / 16 + 1)", "inscatter of the regular march samples"},
     {"extra", kRgba16, kR32, "slices x samples", "inscatter of the march samples between, packed"},
     {"epipolar inscatter", kRgba16, kR32, "slices x samples", "inscatter of all samples"},
@@ -44,7 +47,7 @@ gl::Uint Targets::get(Target target, int width, int height, bool coloured) {
   if (slot.texture && slot.width == width && slot.height == height && slot.format == format.internal)
     return slot.texture.name();
   slot = Slot{gl::Texture(gl_), width, height, format.bytes, format.internal};
-  gl_.ActiveTexture(gl::TEXTURE0);
+  gl_.ActiveTexture(gl::TEXTURE0 + static_cast<gl::Enum>(gl::Unit::Upload));
   gl_.BindTexture(gl::TEXTURE_2D, slot.texture.name());
   gl_.TexParameteri(gl::TEXTURE_2D, gl::TEXTURE_MAX_LEVEL, 0);
   gl_.TexImage2D(gl::TEXTURE_2D, 0, static_cast<gl::Int>(format.internal), width, height, 0, format.channels, gl::FLOAT,

@@ -15,6 +15,7 @@ enum class Target {
   SliceTable,
   SampleEnds,
   Marks,
+  RefinedMarks,
   Marched,
   Extra,
   EpipolarInscatter,

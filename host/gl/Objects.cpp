@@ -118,7 +118,7 @@ GLenum depthAttachmentOf(GLenum depthFormat) {
 void requireCompleteFramebuffer(const std::string& what) {
   const GLenum status = gl().CheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {
-    throw Error(what + ": the framebuffer is not complete, status " + std::to_string(status));
+    throw Error(what + ": the driver cannot make it so large (framebuffer status " + std::to_string(status) + ")");
   }
 }
 

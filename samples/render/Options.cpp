@@ -32,8 +32,8 @@ Exit status
 
 /// The options as typed. Numbers are parsed here and not by CLI11, so that nothing but a whole number passes for one.
 struct Typed {
-  std::string scene, camera, eye, target, fov, sun, size, supersample, profile, technique, filter, medium, shadowSize,
-      cascades, frames, repeat, context, stats, exposure;
+  std::string scene, camera, eye, target, fov, sun, size, supersample, profile, technique, slices, samples, filter,
+      medium, shadowSize, cascades, frames, repeat, context, stats, exposure;
   std::vector<std::string> out;
   bool reversedDepth = false;
 };
@@ -154,6 +154,9 @@ void readQuality(const Typed& typed, Options& options) {
   if (std::find(kProfiles.begin(), kProfiles.end(), typed.profile) == kProfiles.end())
     fail("--profile", typed.profile, "must be performance, balanced, high or reference");
   options.profile = typed.profile;
+  if (!typed.slices.empty()) options.slices = parseInt("--slices", typed.slices, 1, 8192);
+  if (!typed.samples.empty()) options.samples = parseInt("--samples", typed.samples, 64, 8192);
+  if (options.samples.value_or(64) % 64 != 0) fail("--samples", typed.samples, "must be a multiple of 64");
   options.technique = !typed.technique.empty() ? typed.technique : typed.profile == "reference" ? "exact" : "epipolar";
   if (std::find(kTechniques.begin(), kTechniques.end(), options.technique) == kTechniques.end())
     fail("--technique", options.technique, "must be exact, tree or epipolar");
@@ -200,6 +203,9 @@ void addOptions(CLI::App& app, Typed& typed) {
       ->type_name("NAME");
   app.add_option("--technique", typed.technique, "exact, tree or epipolar; by the profile if not given")
       ->type_name("NAME");
+  app.add_option("--slices", typed.slices, "epipolar lines; by the profile if not given")->type_name("N");
+  app.add_option("--samples", typed.samples, "samples of a slice, a multiple of 64; by the profile if not given")
+      ->type_name("N");
   app.add_option("--filter", typed.filter, "of the shadow map: nearest (default) or bilinear")->type_name("NAME");
   app.add_option("--medium", typed.medium, "the medium, instead of the scene's")->type_name("M.json");
   app.add_option("--shadow-size", typed.shadowSize, "texels per side of a shadow map (default 4096)")->type_name("N");

@@ -39,6 +39,8 @@ struct Options {
   int supersample = 1; ///< pixels rendered for one of the picture, along each side
   std::string profile = "reference";
   std::string technique = "exact";
+  std::optional<int> slices;  ///< none: by the profile
+  std::optional<int> samples; ///< none: by the profile
   tyndall::ShadowFilter shadowFilter = tyndall::ShadowFilter::Nearest;
   std::optional<std::filesystem::path> medium;
   int shadowSize = 4096;

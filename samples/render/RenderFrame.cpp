@@ -41,6 +41,8 @@ tyndall::Settings settingsOf(const Options& options) {
                        : options.technique == "tree" ? tyndall::Technique::Tree
                                                      : tyndall::Technique::Epipolar;
   settings.shadowFilter = options.shadowFilter;
+  settings.slices = options.slices.value_or(settings.slices);
+  settings.samples = options.samples.value_or(settings.samples);
   return settings;
 }
 

@@ -8,9 +8,12 @@
 
 namespace {
 
+/// Mesa's software rasteriser makes no texture above 1 GiB: six faces of 32 bits end at 6688².
+int largestMap(const std::string& scene) { return scene == "cage" ? 6144 : 8192; }
+
 void printRows(const std::string& scene) {
   reference::Image truth;
-  for (const int size : {1024, 4096, 8192}) {
+  for (const int size : {1024, 4096, largestMap(scene)}) {
     const tests::SceneAnswers answers = tests::renderScene(tests::sampleOptions(scene, 320, 180, size));
     if (truth.rgb.empty()) truth = reference::SceneExact(answers.triangles).render(answers.view).inscatter;
     const reference::ErrorMetrics map =

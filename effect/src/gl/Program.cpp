@@ -61,8 +61,9 @@ Uint ProgramCache::compile(Enum kind, const std::string& file, const Definitions
   if (ok) return shader;
   gl_.GetShaderiv(shader, INFO_LOG_LENGTH, &length);
   std::string log(static_cast<std::size_t>(length > 0 ? length : 1), '\0');
-  gl_.GetShaderInfoLog(shader, length, nullptr, log.data());
-  error_ = std::string(log.c_str()) + "\n" + numbered(text); // the log counts its terminating zero
+  gl_.GetShaderInfoLog(shader, length, &length, log.data());
+  log.resize(static_cast<std::size_t>(length)); // without its terminating zero
+  error_ = log + "\n" + numbered(text);
   gl_.DeleteShader(shader);
   return 0;
 }
@@ -87,8 +88,8 @@ Uint ProgramCache::link(const std::string& fragment, const Definitions& definiti
   if (!ok) {
     gl_.GetProgramiv(program, INFO_LOG_LENGTH, &length);
     error_.assign(static_cast<std::size_t>(length > 0 ? length : 1), '\0');
-    gl_.GetProgramInfoLog(program, length, nullptr, error_.data());
-    error_ = error_.c_str();
+    gl_.GetProgramInfoLog(program, length, &length, error_.data());
+    error_.resize(static_cast<std::size_t>(length));
     gl_.DeleteProgram(program);
     return 0;
   }

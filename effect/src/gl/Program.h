@@ -30,6 +30,7 @@ enum class Unit : Uint {
   RowDepths,
   RowNodes,
   RowTree,
+  Upload, ///< where textures are made and filled, so that no other unit's texture is disturbed
 };
 
 class Program {

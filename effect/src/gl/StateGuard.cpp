@@ -214,8 +214,8 @@ void StateGuard::setDefaults() const {
   gl_.Disable(BLEND);
   gl_.PolygonMode(FRONT_AND_BACK, FILL);
   gl_.BindBuffer(PIXEL_UNPACK_BUFFER, 0);
-  for (std::size_t i = 0; i < kUnpack.size(); ++i)
-    gl_.PixelStorei(kUnpack[i], kUnpack[i] == UNPACK_ALIGNMENT ? 4 : 0);
+  for (const Enum parameter : kUnpack)
+    gl_.PixelStorei(parameter, parameter == UNPACK_ALIGNMENT ? 4 : 0);
   for (std::size_t i = 0; i < drawBuffers_.size(); ++i)
     gl_.ColorMaski(static_cast<Uint>(i), 1, 1, 1, 1);
 }

@@ -20,7 +20,7 @@ public:
     const Settings& settings = in.frame->settings;
     table_ = optics::makeSlices(*in.frame, *in.light, settings.slices, settings.samples, in.map.width, in.map.height);
     block_ = table_.block;
-    block_.thresholds = glm::vec4(settings.breakThreshold, settings.leastWeight, 0, 0);
+    block_.thresholds = glm::vec4(settings.breakThreshold, settings.leastWeight, settings.bendThreshold, 0);
     chooseRow();
   }
 
@@ -50,7 +50,7 @@ private:
   Status uploadTable() {
     const gl::Uint texture = targets_.get(Target::SliceTable, table_.slices, table_.rows);
     if (!texture) return outOfMemory();
-    gl_.ActiveTexture(gl::TEXTURE0);
+    gl_.ActiveTexture(gl::TEXTURE0 + static_cast<gl::Enum>(gl::Unit::Upload));
     gl_.BindTexture(gl::TEXTURE_2D, texture);
     gl_.TexSubImage2D(gl::TEXTURE_2D, 0, 0, 0, table_.slices, table_.rows, gl::RGBA, gl::FLOAT, table_.texels.data());
     bindTexture(context_, gl::Unit::SliceTable, gl::TEXTURE_2D, texture);
@@ -148,8 +148,18 @@ private:
     bindInputs();
     setBlend(context_, Blend::Replace);
     if (Status s = classify(); !s) return s;
-    for (int view = 0; view < std::max(views(), 1); ++view)
-      if (Status s = marchView(view); !s) return s;
+    const int draws = std::max(views(), 1);
+    for (int view = 0; view < draws; ++view) {
+      if (views() > 0)
+        if (Status s = buildRows(view); !s) return s;
+      if (Status s = marchRegular(view); !s) return s;
+    }
+    if (Status s = refine(); !s) return s;
+    for (int view = 0; view < draws; ++view) {
+      if (views() > 1) // only the last view's rows are at hand
+        if (Status s = buildRows(view); !s) return s;
+      if (Status s = marchExtra(view); !s) return s;
+    }
     setBlend(context_, Blend::Replace);
     bindOwn(gl::Unit::Marched, Target::Marched, slices_, samples_ / 16 + 1);
     bindOwn(gl::Unit::Extra, Target::Extra, slices_, samples_);
@@ -170,14 +180,28 @@ private:
     return {};
   }
 
-  // Inscatter at the march samples through one view: glsl/passes/march, strips.
-  Status marchView(int view) {
-    if (views() > 0)
-      if (Status s = buildRows(view); !s) return s;
+  // Inscatter at the regular march samples through one view: glsl/passes/march.
+  Status marchRegular(int view) {
     selectView(view);
     setBlend(context_, view == 0 ? Blend::Replace : Blend::Add);
     if (Status s = target(Target::Marched, slices_, samples_ / 16 + 1); !s) return s;
-    if (Status s = draw("march", "passes/march.frag", with(definitions_, "EXTRA", 0)); !s) return s;
+    return draw("march", "passes/march.frag", with(definitions_, "EXTRA", 0));
+  }
+
+  // More of them where the inscatter bends: glsl/passes/refine.
+  Status refine() {
+    setBlend(context_, Blend::Replace);
+    bindOwn(gl::Unit::Marched, Target::Marched, slices_, samples_ / 16 + 1);
+    if (Status s = target(Target::RefinedMarks, slices_, samples_ / 64); !s) return s;
+    if (Status s = draw("refine", "passes/refine.frag", definitions_); !s) return s;
+    bindOwn(gl::Unit::Marks, Target::RefinedMarks, slices_, samples_ / 64);
+    return {};
+  }
+
+  // Inscatter at the marked samples between: glsl/passes/strips, march.
+  Status marchExtra(int view) {
+    selectView(view);
+    setBlend(context_, view == 0 ? Blend::Replace : Blend::Add);
     if (Status s = target(Target::Extra, slices_, samples_); !s) return s;
     const int instances = (slices_ + 7) / 8 * (samples_ / 64);
     const bool ok = recorder_.run(in_.name + " march extra", [&] {

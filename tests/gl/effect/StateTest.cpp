@@ -67,6 +67,16 @@ const std::map<std::string, GLenum> kIntegers = {
     {"stencil write mask", GL_STENCIL_WRITEMASK},
     {"stencil fail", GL_STENCIL_FAIL},
     {"stencil pass", GL_STENCIL_PASS_DEPTH_PASS},
+    {"stencil back func", GL_STENCIL_BACK_FUNC},
+    {"stencil back ref", GL_STENCIL_BACK_REF},
+    {"stencil back value mask", GL_STENCIL_BACK_VALUE_MASK},
+    {"stencil back write mask", GL_STENCIL_BACK_WRITEMASK},
+    {"stencil back fail", GL_STENCIL_BACK_FAIL},
+    {"stencil back pass", GL_STENCIL_BACK_PASS_DEPTH_PASS},
+    {"stencil depth fail", GL_STENCIL_PASS_DEPTH_FAIL},
+    {"unpack skip rows", GL_UNPACK_SKIP_ROWS},
+    {"unpack skip pixels", GL_UNPACK_SKIP_PIXELS},
+    {"unpack swap bytes", GL_UNPACK_SWAP_BYTES},
     {"cull mode", GL_CULL_FACE_MODE},
     {"front face", GL_FRONT_FACE},
     {"polygon mode", GL_POLYGON_MODE},
@@ -171,6 +181,14 @@ struct Poison {
     g.DepthMask(GL_FALSE);
     g.StencilFunc(GL_NEVER, 3, 0x55);
     g.StencilMask(0x3);
+    g.StencilFuncSeparate(GL_BACK, GL_GREATER, 7, 0x33);
+    g.StencilMaskSeparate(GL_BACK, 0x70);
+    g.StencilOpSeparate(GL_FRONT, GL_INCR, GL_ZERO, GL_INVERT);
+    g.StencilOpSeparate(GL_BACK, GL_DECR, GL_INCR_WRAP, GL_REPLACE);
+    g.PixelStorei(GL_UNPACK_SKIP_ROWS, 2);
+    g.PixelStorei(GL_UNPACK_SKIP_PIXELS, 3);
+    g.PixelStorei(GL_UNPACK_ALIGNMENT, 8);
+    g.PixelStorei(GL_UNPACK_SWAP_BYTES, GL_TRUE);
     g.CullFace(GL_FRONT_AND_BACK);
     g.FrontFace(GL_CW);
     g.ClearColor(1, 2, 3, 4);
@@ -212,7 +230,10 @@ struct Poison {
     g.FrontFace(GL_CCW);
     g.BlendEquation(GL_FUNC_ADD);
     g.BlendFunc(GL_ONE, GL_ZERO);
-    g.PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    for (const GLenum name : {GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SWAP_BYTES})
+      g.PixelStorei(name, 0);
+    g.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    g.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
     g.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
     for (GLuint unit = 0; unit < 16; ++unit)
       g.BindSampler(unit, 0);
@@ -269,25 +290,27 @@ TEST_CASE("GL state on return equals GL state on entry, every row of it poisoned
   tests::testEffect();
   FullFrame full;
   const reference::ImageAnswer expected = full.rig.render();
-  for (const bool outputs : {true, false})
-    for (const bool valid : {true, false}) {
-      Frame frame = full.rig.frame;
-      if (!outputs) frame.output = {};
-      if (!valid) frame.depth.texture = full.colour.name();
-      {
-        const Poison poison;
-        const State before = captureState();
-        const Status status = tests::testEffect().render(frame);
-        const State after = captureState();
-        Poison::lift();
-        INFO(status.message);
-        CHECK(static_cast<bool>(status) == valid);
-        for (const auto& [name, values] : before) {
-          INFO(name);
-          CHECK(values == after.at(name));
+  for (const Technique technique : {Technique::Exact, Technique::Tree, Technique::Epipolar})
+    for (const bool outputs : {true, false})
+      for (const bool valid : {true, false}) {
+        Frame frame = full.rig.frame;
+        frame.settings.technique = technique;
+        if (!outputs) frame.output = {};
+        if (!valid) frame.depth.texture = full.colour.name();
+        {
+          const Poison poison;
+          const State before = captureState();
+          const Status status = tests::testEffect().render(frame);
+          const State after = captureState();
+          Poison::lift();
+          INFO(status.message);
+          CHECK(static_cast<bool>(status) == valid);
+          for (const auto& [name, values] : before) {
+            INFO(name);
+            CHECK(values == after.at(name));
+          }
         }
       }
-    }
   // The poison did not get into the picture either.
   const reference::ImageAnswer again = full.rig.render();
   CHECK(again.inscatter.rgb == expected.inscatter.rgb);

@@ -5,6 +5,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/ConventionTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/DriverFailureTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EffectContextTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/EpipolarTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ExactTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FakeContext.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameTexturesTest.cpp

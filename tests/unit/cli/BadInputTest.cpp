@@ -51,8 +51,8 @@ TEST_CASE("tyndall-render refuses wrong usage with exit code 2") {
   checkUsageError({"triangle.gltf", "--size", "10x10", "--size", "20x20"}, "--size");
   checkUsageError({"triangle.gltf", "--medium", ""}, "--medium");
   checkUsageError({""}, "SCENE");
-  checkUsageError({"triangle.gltf", "--profile", "performance"}, "--profile performance");
-  checkUsageError({"triangle.gltf", "--technique", "tree"}, "--technique tree");
+  checkUsageError({"triangle.gltf", "--profile", "fast"}, "--profile fast");
+  checkUsageError({"triangle.gltf", "--technique", "radial-blur"}, "--technique radial-blur");
   checkUsageError({"triangle.gltf", "--filter", "cubic"}, "--filter cubic");
   checkUsageError({"triangle.gltf", "--context", "vulkan"}, "--context vulkan");
 }
