@@ -15,10 +15,19 @@
 
 // The data flow of a frame. Boxes are passes (effect/src/passes, glsl/passes), the rest are textures.
 //
+//   Technique exact, one draw per light:
+//
 //   scene depth --+
 //   shadow map ---+--> [exact] one draw per light --+--> blended into colour            (no Output asked for)
 //   glass map ----+                                 |
 //                                                   +--> inscatter, transmittance --> [composite] --> colour
+//
+//   Techniques tree and epipolar, per light (passes/Epipolar.cpp), take the place of [exact]:
+//
+//   slice table (CPU) + shadow map --> [rows] --> row depths --> [nodes] [tree] --> row tree      per shadow view
+//   scene depth --> [sample ends] --> [marks] --> [march] --> [refine] --> [march extra] --> [interpolate] --> [unwarp]
+//                                                                       what unwarp left --> [fix-up] along the row
+//                                                                       tree
 //
 namespace tyndall {
 
