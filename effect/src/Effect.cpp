@@ -51,6 +51,7 @@ struct Effect::State {
   struct Destination {
     gl::Uint inscatter = 0, transmittance = 0; // 0, 0: straight into colour
     bool composite = false;                    // blend them into colour afterwards
+    bool direct() const { return inscatter == 0 && transmittance == 0; }
   };
 
   void createObjects();
@@ -59,6 +60,12 @@ struct Effect::State {
   Status chooseDestination(const Frame& frame, bool changesColour, Destination& destination);
   Status attach(const Frame& frame, gl::Uint first, gl::Uint second, bool withStencil = false);
   Status drawLights(const Frame& frame, const FrameTextures& textures, const Destination& destination);
+  Status drawLight(const Frame& frame, const Light* light, const FrameTextures::Shadow& map,
+                   const Destination& destination, bool first, const std::string& name);
+  // Slices take one depth per pixel: a multisampled frame is rendered by exact.
+  static bool usesSlices(const Frame& frame) {
+    return frame.settings.technique != Technique::Exact && !frame.depth.multisampled;
+  }
   void upload(int binding, const void* data, std::size_t size);
   passes::PassContext passContext() { return {gl, programs, nearestSampler.name()}; }
   Status shaderError() const { return {StatusCode::ShaderError, "a shader did not build: " + programs.error()}; }
@@ -215,80 +222,72 @@ Status Effect::State::attach(const Frame& frame, gl::Uint first, gl::Uint second
                                         ": this context cannot render to the texture's format"};
 }
 
+namespace {
+
+// Why a light has nothing to add; empty if it has.
+std::string reasonToSkip(const Frame& frame, const Light& light, bool wantsInscatter) {
+  if (light.colour == Rgb{0, 0, 0}) return "the light is black";
+  if (optics::scatteringOf(frame.medium) == glm::dvec3(0)) return "the medium does not scatter";
+  if (!wantsInscatter) return "only the transmittance is wanted";
+  return {};
+}
+
+// The shader variant of a light; null: transmittance only.
+passes::exact::Variant variantOf(const Frame& frame, const Light* light, bool direct) {
+  passes::exact::Variant variant;
+  variant.monochrome = !light || optics::isMonochrome(frame.medium);
+  variant.multisampled = frame.depth.multisampled;
+  variant.composite = direct;
+  if (!light) return variant;
+  variant.lightKind = static_cast<int>(light->kind);
+  variant.glass = light->glass.colour != 0;
+  if (light->shadow.texture == 0) return variant;
+  variant.shadowViews = light->shadow.views.size() > 1 ? 2 : 1;
+  variant.shadowArray = light->shadow.array;
+  variant.bilinear = frame.settings.shadowFilter == ShadowFilter::Bilinear;
+  return variant;
+}
+
+} // namespace
+
 Status Effect::State::drawLights(const Frame& frame, const FrameTextures& textures, const Destination& destination) {
-  using namespace passes;
-  const bool direct = destination.inscatter == 0 && destination.transmittance == 0;
-  if (Status s =
-          direct ? attach(frame, frame.colour, 0) : attach(frame, destination.inscatter, destination.transmittance);
-      !s)
-    return s;
-  exact::In in;
-  in.sceneDepth = frame.depth.texture;
-  in.variant.monochrome = optics::isMonochrome(frame.medium);
-  in.variant.multisampled = frame.depth.multisampled;
-  in.variant.composite = direct;
-  // The first draw also brings the transmittance; those after it add their light.
-  in.blend = direct ? Blend::DualSource : Blend::Replace;
   bool first = true;
-  const bool fast = frame.settings.technique != Technique::Exact && !frame.depth.multisampled;
-  const auto attachDestination = [&](bool withStencil) {
-    return direct ? attach(frame, frame.colour, 0, withStencil)
-                  : attach(frame, destination.inscatter, first ? destination.transmittance : 0, withStencil);
-  };
-  const auto draw = [&](const std::string& name, const FrameTextures::Shadow& map) -> Status {
-    if (fast && in.light) {
-      const epipolar::In light{
-          &frame,
-          in.light,
-          map,
-          in.variant,
-          in.blend,
-          name,
-          attachDestination,
-          [this](int binding, const void* data, std::size_t size) { upload(binding, data, size); }};
-      if (Status s = epipolar::run(passContext(), targets, recorder, epipolar, light); !s) return s;
-    } else {
-      if (Status s = attachDestination(false); !s) return s;
-      if (!recorder.run(name, [&] { return exact::run(passContext(), in); })) return shaderError();
-    }
-    in.blend = Blend::Add;
-    first = false;
-    return {};
-  };
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     const Light& light = frame.lights[i];
-    const std::string name = (fast ? "light " : "exact light ") + std::to_string(i);
-    if (light.colour == Rgb{0, 0, 0}) {
-      recorder.skip(name, "the light is black");
-      continue;
-    }
-    if (optics::scatteringOf(frame.medium) == glm::dvec3(0)) {
-      recorder.skip(name, "the medium does not scatter");
-      continue;
-    }
-    if (!direct && destination.inscatter == 0) {
-      recorder.skip(name, "only the transmittance is wanted");
+    const std::string name = (usesSlices(frame) ? "light " : "exact light ") + std::to_string(i);
+    const std::string reason = reasonToSkip(frame, light, destination.direct() || destination.inscatter != 0);
+    if (!reason.empty()) {
+      recorder.skip(name, reason);
       continue;
     }
     const FrameTextures::Shadow& map = textures.shadows[i];
     const blocks::LightBlock block = optics::lightBlock(light, frame.camera, map.width, map.height);
     upload(1, &block, sizeof block);
-    in.light = &light;
-    in.variant.lightKind = static_cast<int>(light.kind);
-    in.variant.shadowViews = light.shadow.texture ? std::min<int>(static_cast<int>(light.shadow.views.size()), 2) : 0;
-    in.variant.shadowArray = light.shadow.texture && light.shadow.array;
-    in.variant.bilinear = light.shadow.texture && frame.settings.shadowFilter == ShadowFilter::Bilinear;
-    in.variant.glass = light.glass.colour != 0;
-    if (Status s = draw(name, map); !s) return s;
+    if (Status s = drawLight(frame, &light, map, destination, first, name); !s) return s;
+    first = false;
   }
-  if (!first) return {};
-  exact::Variant& v = in.variant;
-  v.lightKind = 3;
-  v.shadowViews = 0;
-  v.shadowArray = v.bilinear = v.glass = false;
-  v.monochrome = true;
-  in.light = nullptr;
-  return draw("transmittance", {});
+  return first ? drawLight(frame, nullptr, {}, destination, true, "transmittance") : Status{};
+}
+
+Status Effect::State::drawLight(const Frame& frame, const Light* light, const FrameTextures::Shadow& map,
+                                const Destination& destination, bool first, const std::string& name) {
+  using namespace passes;
+  // The frame's first draw also brings the transmittance; those after it add their light.
+  const auto attachDestination = [&](bool withStencil, bool withTransmittance) {
+    return destination.direct() ? attach(frame, frame.colour, 0, withStencil)
+                                : attach(frame, destination.inscatter,
+                                         first && withTransmittance ? destination.transmittance : 0, withStencil);
+  };
+  const exact::Variant variant = variantOf(frame, light, destination.direct());
+  const Blend blend = !first ? Blend::Add : destination.direct() ? Blend::DualSource : Blend::Replace;
+  if (light && usesSlices(frame)) {
+    const auto uploadBlock = [this](int binding, const void* data, std::size_t size) { upload(binding, data, size); };
+    const epipolar::In in{&frame, light, map, variant, blend, name, attachDestination, uploadBlock};
+    return epipolar::run(passContext(), targets, recorder, epipolar, in);
+  }
+  if (Status s = attachDestination(false, true); !s) return s;
+  const exact::In in{variant, frame.depth.texture, light, blend};
+  return recorder.run(name, [&] { return exact::run(passContext(), in); }) ? Status{} : shaderError();
 }
 
 void Effect::State::upload(int binding, const void* data, std::size_t size) {

@@ -135,7 +135,7 @@ private:
         if (Status s = buildRows(view); !s) return s;
       selectView(view);
       bindInputs();
-      if (Status s = in_.attachDestination(false); !s) return s;
+      if (Status s = in_.attachDestination(false, view == 0); !s) return s;
       setBlend(context_, blend);
       if (Status s = draw("pixels", "passes/pixelTree.frag", definitions_); !s) return s;
       blend = Blend::Add;
@@ -213,7 +213,7 @@ private:
   // To the pixels; those that no sample serves keep their stencil for the fix-up.
   Status unwarp() {
     const Frame& frame = *in_.frame;
-    if (Status s = in_.attachDestination(true); !s) return s;
+    if (Status s = in_.attachDestination(true, true); !s) return s;
     const gl::Int zero = 0;
     gl_.StencilMask(0xFF);
     gl_.ClearBufferiv(gl::STENCIL, 0, &zero);

@@ -17,8 +17,9 @@ struct In {
   FrameTextures::Shadow map;
   exact::Variant variant; ///< of this light
   Blend blend = Blend::Replace;
-  std::string name;                                          ///< of the light, for the statistics
-  std::function<Status(bool withStencil)> attachDestination; ///< binds the framebuffer that receives the light
+  std::string name; ///< of the light, for the statistics
+  /// Binds the framebuffer that receives the light, without its transmittance for draws that only add.
+  std::function<Status(bool withStencil, bool withTransmittance)> attachDestination;
   std::function<void(int binding, const void* data, std::size_t size)> upload;
 };
 

@@ -129,3 +129,15 @@ TEST_CASE("the first frame of an effect equals its second") {
     CHECK(pixels() == first);
   }
 }
+
+TEST_CASE("transmittance is the same by every technique, with several views and lights") {
+  Rig rig(LightKind::Directional, Map::Slats, kDirections[0]);
+  Frame& frame = rig.frame.frame;
+  frame.lights[0].shadow.views.push_back(frame.lights[0].shadow.views[0]);
+  frame.lights.push_back(frame.lights[0]);
+  const reference::Image expected = rig.frame.render().transmittance;
+  for (const Technique technique : {Technique::Tree, Technique::Epipolar}) {
+    frame.settings.technique = technique;
+    CHECK(reference::compare(rig.frame.render().transmittance, expected).max <= 1e-6);
+  }
+}
