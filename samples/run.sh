@@ -2,13 +2,16 @@
 # Installs packages, builds tyndall-render and the sample scenes, and renders the README's gallery into out/gallery.
 set -eu
 cd "$(dirname "$0")/.."
+# shellcheck source=samples/setup.sh
 . samples/setup.sh
 
+# shellcheck disable=SC2086,SC2154 # lists of words, from setup.sh
 install_packages $build_packages
 
 say "Building into build/"
-cmake -S . -B build -G Ninja -DTYNDALL_BUILD_TESTS=OFF
-cmake --build build
+# A build of tests/run.sh keeps its tests; without one, what only tests need is not asked for.
+[ -f build/build.ninja ] || cmake -S . -B build -G Ninja -DTYNDALL_BUILD_TESTS=OFF
+cmake --build build --target tyndall-render tyndall_scenes
 
 # picture SCENE [OPTION...]: 960x540 pixels, each the mean of 2x2.
 picture() {

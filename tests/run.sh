@@ -3,8 +3,10 @@
 # test and the lint. Ends with ctest's own summary; exit status 0 only if all passed.
 set -eu
 cd "$(dirname "$0")/.."
+# shellcheck source=samples/setup.sh
 . samples/setup.sh
 
+# shellcheck disable=SC2086,SC2154 # lists of words, from setup.sh
 install_packages $build_packages $test_packages
 
 say "Building with g++ into build/"

@@ -169,8 +169,9 @@ struct Settings {
   int slices = 1024;  ///< Tree, Epipolar: epipolar lines, 1 to 8192; never more than pixels on the visible border
   int samples = 1024; ///< Epipolar: samples of a slice, a multiple of 64 from 64 to 8192; never denser than pixels
   float breakThreshold = 0.1F; ///< Epipolar: relative change of distance that counts as a depth break, > 0
-  float bendThreshold = 0.02F; ///< Epipolar: relative bend of the inscatter along a slice that is marched more finely, > 0
-  float leastWeight = 0.05F;   ///< Epipolar: bilateral weight under which a pixel is marched by itself, 0 to 1
+  float bendThreshold =
+      0.02F; ///< Epipolar: relative bend of the inscatter along a slice that is marched more finely, > 0
+  float leastWeight = 0.05F; ///< Epipolar: bilateral weight under which a pixel is marched by itself, 0 to 1
 };
 
 /// The settings of a profile. Reference is Technique::Exact.
