@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <ctime>
 #include <functional>
 #include <map>
 #include <set>
@@ -262,14 +261,11 @@ TEST_CASE("every shader variant compiles, and no frame needs another") {
   REQUIRE(result.effect);
   Effect& effect = *result.effect;
   CHECK(effect.statistics().compiledPrograms == 0);
-  const std::clock_t start = std::clock();
   const Status status = effect.compileAll();
-  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC; // of this process on all cores
   INFO(status.message);
   REQUIRE(status);
   const int count = effect.statistics().compiledPrograms;
-  CAPTURE(count, seconds);
-  CHECK(seconds < 30);
+  CAPTURE(count);
 
   tests::SceneRig scene(2, 2);
   const host::GlTexture colour = scene.makeColour(GL_RGBA16F, std::vector<float>(16, 1.0F));
