@@ -23,7 +23,7 @@ void main() {
   float before = first >= 2 ? texelFetch(sampleEnds, ivec2(slice, first - 2), 0).r : -1.0;
   float low = first >= 1 ? texelFetch(sampleEnds, ivec2(slice, first - 1), 0).r : -1.0;
   float high = texelFetch(sampleEnds, ivec2(slice, first), 0).r;
-  bool dense = first == 0 && epipole.x >= border.x * epipole.z && sliceMap.w != 0.0;
+  bool dense = first == 0 && sliceMap.w != 0.0; // lines leave through all four sides: the epipole is in the image
   ivec4 masks = ivec4(0);
   // Sample index - 1 lies between `before` and `high`: low; a break between low and high marks both.
   bool carried = false; // the sample before has a break behind it
