@@ -32,11 +32,9 @@
 namespace tyndall {
 
 struct Effect::State {
-  explicit State(const Config& config)
-      : timing(config.timing), programs(gl), targets(gl), recorder(gl, config.timing) {}
+  explicit State(const Config& config) : programs(gl), targets(gl), recorder(gl, config.timing) {}
 
   gl::Functions gl;
-  PassTiming timing;
   gl::ProgramCache programs;
   Targets targets;
   PassRecorder recorder;
