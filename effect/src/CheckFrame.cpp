@@ -145,6 +145,25 @@ Status checkLight(const std::string& field, const Light& light) {
   return {};
 }
 
+Status checkView(const Frame& frame) {
+  constexpr const char* kNames[] = {"Composite",   "Slices",     "Samples",   "Breaks",        "MarchSamples",
+                                    "FixupPixels", "NodeVisits", "Inscatter", "Transmittance", "Difference"};
+  const View view = frame.settings.view;
+  const Technique technique = frame.settings.technique;
+  if (view < View::Composite || view > View::Difference)
+    return invalid("settings.view", std::to_string(static_cast<int>(view)), "must be one of the enumerators");
+  const std::string name = kNames[static_cast<int>(view)];
+  if (view != View::Composite && frame.colour == 0)
+    return invalid("settings.view", name, "needs Frame::colour, which the view replaces");
+  if (view < View::Slices || view > View::NodeVisits) return {};
+  if (technique == Technique::Exact || frame.depth.multisampled)
+    return invalid("settings.view", name,
+                   "needs slices: technique Tree or Epipolar, and a depth that is not multisampled");
+  if (technique == Technique::Tree && view != View::Slices && view != View::NodeVisits)
+    return invalid("settings.view", name, "needs samples: technique Epipolar");
+  return {};
+}
+
 Status checkSettings(const Settings& settings) {
   const auto enumerator = [](const char* field, int value) {
     return invalid(field, std::to_string(value), "must be one of the enumerators");
@@ -157,6 +176,8 @@ Status checkSettings(const Settings& settings) {
     return invalid("settings.slices", std::to_string(settings.slices), "must be 1 to 8192");
   if (settings.samples < 64 || settings.samples > 8192 || settings.samples % 64 != 0)
     return invalid("settings.samples", std::to_string(settings.samples), "must be a multiple of 64 from 64 to 8192");
+  if (settings.rowStep < 1 || settings.rowStep > 8)
+    return invalid("settings.rowStep", std::to_string(settings.rowStep), "must be 1 to 8");
   if (!(settings.breakThreshold > 0 && std::isfinite(settings.breakThreshold)))
     return invalid("settings.breakThreshold", text(settings.breakThreshold), "must be finite and > 0");
   if (!(settings.bendThreshold > 0))
@@ -181,7 +202,8 @@ Status checkValues(const Frame& frame) {
   for (std::size_t i = 0; i < frame.lights.size(); ++i)
     if (Status s = checkLight("lights[" + std::to_string(i) + "].", frame.lights[i]); !s) return s;
   if (Status s = checkMedium(frame.medium); !s) return s;
-  return checkSettings(frame.settings);
+  if (Status s = checkSettings(frame.settings); !s) return s;
+  return checkView(frame);
 }
 
 } // namespace tyndall

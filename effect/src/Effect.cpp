@@ -4,9 +4,11 @@
 #include "gl/Program.h"
 #include "gl/StateGuard.h"
 #include "optics/Blocks.h"
+#include "optics/LightVolume.h"
 #include "passes/Composite.h"
 #include "passes/Epipolar.h"
 #include "passes/Exact.h"
+#include "passes/View.h"
 
 #include <algorithm>
 #include <array>
@@ -22,12 +24,11 @@
 //   glass map ----+                                 |
 //                                                   +--> inscatter, transmittance --> [composite] --> colour
 //
-//   Techniques tree and epipolar, per light (passes/Epipolar.cpp), take the place of [exact]:
+//   A debug view (Settings::view) takes the place of [composite]:
 //
-//   slice table (CPU) + shadow map --> [rows] --> row depths --> [nodes] [tree] --> row tree      per shadow view
-//   scene depth --> [sample ends] --> [marks] --> [march] --> [refine] --> [march extra] --> [interpolate] --> [unwarp]
-//                                                                       what unwarp left --> [fix-up] along the row
-//                                                                       tree
+//   inscatter, transmittance, or what passes/SliceView.cpp drew of the first light --> [view] --> colour
+//
+//   Techniques tree and epipolar, per light, take the place of [exact]: passes/Epipolar.cpp has their picture.
 //
 namespace tyndall {
 
@@ -40,7 +41,7 @@ struct Effect::State {
   PassRecorder recorder;
   gl::VertexArray vertexArray;
   gl::Framebuffer framebuffer;
-  passes::epipolar::Objects epipolar;
+  passes::SliceObjects sliceObjects;
   gl::Int id = 0; ///< kept in our sampler, where it tells this context from another with the same names
   gl::Sampler nearestSampler;
   std::array<gl::Buffer, gl::kUniformBindings> uniformBuffers;
@@ -48,7 +49,7 @@ struct Effect::State {
   // Where a frame's light goes: straight into colour, or into two textures first.
   struct Destination {
     gl::Uint inscatter = 0, transmittance = 0; // 0, 0: straight into colour
-    bool composite = false;                    // blend them into colour afterwards
+    bool composite = false;                    // blend them, or show the view, into colour afterwards
     bool direct() const { return inscatter == 0 && transmittance == 0; }
   };
 
@@ -58,11 +59,19 @@ struct Effect::State {
   Status chooseDestination(const Frame& frame, bool changesColour, Destination& destination);
   Status attach(const Frame& frame, gl::Uint first, gl::Uint second, bool withStencil = false);
   Status drawLights(const Frame& frame, const FrameTextures& textures, const Destination& destination);
+  Status prepareColour(const Frame& frame);
+  Status drawView(const Frame& frame, const FrameTextures& textures, const Destination& destination);
+  Status drawDifference(const Frame& frame, const FrameTextures& textures, passes::view::In& in);
+  Status clearView(const Frame& frame);
   Status drawLight(const Frame& frame, const Light* light, const FrameTextures::Shadow& map,
                    const Destination& destination, bool first, const std::string& name);
   // Slices take one depth per pixel: a multisampled frame is rendered by exact.
   static bool usesSlices(const Frame& frame) {
     return frame.settings.technique != Technique::Exact && !frame.depth.multisampled;
+  }
+  static bool hasView(const Frame& frame) { return frame.settings.view != View::Composite; }
+  static bool showsSlices(const Frame& frame) {
+    return frame.settings.view >= View::Slices && frame.settings.view <= View::NodeVisits;
   }
   void upload(int binding, const void* data, std::size_t size);
   passes::PassContext passContext() { return {gl, programs, nearestSampler.name()}; }
@@ -116,7 +125,8 @@ Status Effect::render(const Frame& frame) {
 
 Statistics Effect::statistics() {
   std::uint64_t bytes = state_->targets.bytes() + sizeof(blocks::FrameBlock) + sizeof(blocks::LightBlock);
-  return {state_->recorder.collect(), bytes, state_->programs.size(), state_->recorder.fixupPixels()};
+  return {state_->recorder.collect(), bytes, state_->programs.size(), state_->recorder.fixupPixels(),
+          state_->recorder.marched()};
 }
 
 Status Effect::compileAll() {
@@ -124,8 +134,9 @@ Status Effect::compileAll() {
   const gl::StateGuard guard(state_->gl);
   for (const passes::exact::Variant& variant : passes::exact::allVariants())
     if (!state_->programs.use("passes/exact.frag", passes::exact::definitionsOf(variant))) return state_->shaderError();
-  for (const auto& [fragment, definitions] : passes::epipolar::allVariants())
-    if (!state_->programs.use(fragment, definitions)) return state_->shaderError();
+  for (const auto& variants : {passes::epipolar::allVariants(), passes::view::allVariants()})
+    for (const gl::Variant& v : variants)
+      if (!state_->programs.use(v.fragment, v.definitions, v.vertex)) return state_->shaderError();
   if (!state_->programs.use("passes/composite.frag", {})) return state_->shaderError();
   return {};
 }
@@ -137,8 +148,8 @@ void Effect::State::createObjects() {
   vertexArray = gl::VertexArray(gl);
   gl.BindVertexArray(vertexArray.name()); // a name becomes an object when it is first bound
   framebuffer = gl::Framebuffer(gl);
-  epipolar.scratch = gl::Framebuffer(gl);
-  epipolar.fixup = gl::Query(gl);
+  sliceObjects.scratch = gl::Framebuffer(gl);
+  sliceObjects.fixup = gl::Query(gl);
   nearestSampler = gl::Sampler(gl);
   for (const gl::Enum filter : {gl::TEXTURE_MIN_FILTER, gl::TEXTURE_MAG_FILTER})
     gl.SamplerParameteri(nearestSampler.name(), filter, gl::NEAREST);
@@ -168,14 +179,12 @@ Status Effect::State::checkContext() const {
 Status Effect::State::renderChecked(const Frame& frame, const FrameTextures& textures) {
   const bool changesColour = optics::extinctionOf(frame.medium) != glm::dvec3(0);
   if (!changesColour) recorder.skip("composite", "the medium neither scatters nor absorbs");
-  if (!changesColour && frame.output.inscatter == 0 && frame.output.transmittance == 0) return {};
+  if (!changesColour && !hasView(frame) && frame.output.inscatter == 0 && frame.output.transmittance == 0) return {};
 
   Destination destination;
   if (Status s = chooseDestination(frame, changesColour, destination); !s) return s;
-  if (destination.composite) { // whatever refuses must do so before anything is drawn
-    if (Status s = attach(frame, frame.colour, 0); !s) return s;
-    if (!programs.use("passes/composite.frag", {})) return shaderError();
-  }
+  if (destination.composite) // whatever refuses must do so before anything is drawn
+    if (Status s = prepareColour(frame); !s) return s;
   gl.BindVertexArray(vertexArray.name());
   gl.Viewport(0, 0, frame.width, frame.height);
   const auto lights = static_cast<float>(std::max<std::size_t>(frame.lights.size(), 1));
@@ -183,6 +192,7 @@ Status Effect::State::renderChecked(const Frame& frame, const FrameTextures& tex
   upload(0, &block, sizeof block);
   if (Status s = drawLights(frame, textures, destination); !s) return s;
   if (!destination.composite) return {};
+  if (hasView(frame)) return drawView(frame, textures, destination);
 
   if (Status s = attach(frame, frame.colour, 0); !s) return s;
   const bool ok = recorder.run("composite", [&] {
@@ -193,8 +203,8 @@ Status Effect::State::renderChecked(const Frame& frame, const FrameTextures& tex
 
 Status Effect::State::chooseDestination(const Frame& frame, bool changesColour, Destination& destination) {
   const Output& output = frame.output;
-  if (output.inscatter == 0 && output.transmittance == 0) return {};
-  destination = {output.inscatter, output.transmittance, changesColour && frame.colour != 0};
+  if (output.inscatter == 0 && output.transmittance == 0 && !hasView(frame)) return {};
+  destination = {output.inscatter, output.transmittance, hasView(frame) || (changesColour && frame.colour != 0)};
   if (!destination.composite) return {};
   if (!destination.inscatter) destination.inscatter = targets.get(Target::Inscatter, frame.width, frame.height);
   if (!destination.transmittance)
@@ -202,6 +212,50 @@ Status Effect::State::chooseDestination(const Frame& frame, bool changesColour, 
   if (destination.inscatter && destination.transmittance) return {};
   return {StatusCode::OutOfMemory,
           "GL could not allocate a texture of " + std::to_string(frame.width) + " x " + std::to_string(frame.height)};
+}
+
+Status Effect::State::prepareColour(const Frame& frame) {
+  if (Status s = attach(frame, frame.colour, 0); !s) return s;
+  const bool ok = hasView(frame) ? passes::view::prepare(passContext(), frame.settings.view)
+                                 : programs.use("passes/composite.frag", {}) != 0;
+  if (!ok) return shaderError();
+  return showsSlices(frame) ? clearView(frame) : Status{};
+}
+
+// Black, where no light is drawn or a sample lies.
+Status Effect::State::clearView(const Frame& frame) {
+  const gl::Uint view = targets.get(Target::View, frame.width, frame.height);
+  if (!view) return {StatusCode::OutOfMemory, "GL could not allocate a texture for Frame::settings.view"};
+  if (Status s = attach(frame, view, 0); !s) return s;
+  constexpr std::array<gl::Float, 4> kBlack = {0, 0, 0, 0};
+  gl.ClearBufferfv(gl::COLOR, 0, kBlack.data());
+  return {};
+}
+
+Status Effect::State::drawView(const Frame& frame, const FrameTextures& textures, const Destination& destination) {
+  passes::view::In in{frame.settings.view, destination.inscatter};
+  if (in.view == View::Transmittance) in.image = destination.transmittance;
+  if (showsSlices(frame)) in.image = targets.get(Target::View, frame.width, frame.height);
+  if (in.view == View::Difference)
+    if (Status s = drawDifference(frame, textures, in); !s) return s;
+  if (Status s = attach(frame, frame.colour, 0); !s) return s;
+  return recorder.run("view", [&] { return passes::view::run(passContext(), in); }) ? Status{} : shaderError();
+}
+
+// Exact's inscatter, and its mean.
+Status Effect::State::drawDifference(const Frame& frame, const FrameTextures& textures, passes::view::In& in) {
+  Frame exactFrame = frame;
+  exactFrame.settings.technique = Technique::Exact;
+  in.exact = targets.get(Target::ViewExact, frame.width, frame.height);
+  in.mean = targets.get(Target::ViewMean, 1, 1);
+  const gl::Uint rowMeans = targets.get(Target::ViewRowMeans, frame.height, 1);
+  if (!in.exact || !in.mean || !rowMeans)
+    return {StatusCode::OutOfMemory, "GL could not allocate a texture for Frame::settings.view"};
+  if (Status s = drawLights(exactFrame, textures, {in.exact, 0, true}); !s) return s;
+  if (Status s = attach(frame, in.exact, 0); !s) return s; // without a second target and a stencil
+  const passes::view::MeanIn mean{in.exact, frame.height, rowMeans, in.mean};
+  return recorder.run("view mean", [&] { return passes::view::runMean(passContext(), mean); }) ? Status{}
+                                                                                               : shaderError();
 }
 
 Status Effect::State::attach(const Frame& frame, gl::Uint first, gl::Uint second, bool withStencil) {
@@ -227,13 +281,14 @@ std::string reasonToSkip(const Frame& frame, const Light& light, bool wantsInsca
   if (light.colour == Rgb{0, 0, 0}) return "the light is black";
   if (optics::scatteringOf(frame.medium) == glm::dvec3(0)) return "the medium does not scatter";
   if (!wantsInscatter) return "only the transmittance is wanted";
+  if (optics::isOutOfView(light, frame.camera)) return "the light's volume is outside the view";
   return {};
 }
 
 // The shader variant of a light; null: transmittance only.
 passes::exact::Variant variantOf(const Frame& frame, const Light* light, bool direct) {
   passes::exact::Variant variant;
-  variant.monochrome = !light || optics::isMonochrome(frame.medium);
+  variant.monochrome = optics::isMonochrome(frame.medium);
   variant.multisampled = frame.depth.multisampled;
   variant.composite = direct;
   if (!light) return variant;
@@ -280,11 +335,17 @@ Status Effect::State::drawLight(const Frame& frame, const Light* light, const Fr
   const Blend blend = !first ? Blend::Add : destination.direct() ? Blend::DualSource : Blend::Replace;
   if (light && usesSlices(frame)) {
     const auto uploadBlock = [this](int binding, const void* data, std::size_t size) { upload(binding, data, size); };
-    const epipolar::In in{&frame, light, map, variant, blend, name, attachDestination, uploadBlock};
-    return epipolar::run(passContext(), targets, recorder, epipolar, in);
+    std::function<Status(bool)> attachView;
+    if (first && showsSlices(frame))
+      attachView = [&](bool withStencil) {
+        return attach(frame, targets.get(Target::View, frame.width, frame.height), 0, withStencil);
+      };
+    const SliceInputs in{&frame, light, map, variant, blend, name, attachDestination, attachView, uploadBlock};
+    return epipolar::run(passContext(), targets, recorder, sliceObjects, in);
   }
   if (Status s = attachDestination(false, true); !s) return s;
   const exact::In in{variant, frame.depth.texture, light, blend};
+  if (light) recorder.countMarched(static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height));
   return recorder.run(name, [&] { return exact::run(passContext(), in); }) ? Status{} : shaderError();
 }
 
@@ -300,21 +361,26 @@ void Effect::State::upload(int binding, const void* data, std::size_t size) {
 Settings settingsOf(Profile profile) {
   struct Row {
     Technique technique;
-    int slices, samples;
-    float breakThreshold;
+    ShadowFilter filter;
+    int slices, samples, rowStep;
+    float breakThreshold, bendThreshold, leastWeight;
   };
   constexpr Row kRows[] = {
-      {Technique::Epipolar, 384, 512, 0.2F},   // performance
-      {Technique::Epipolar, 640, 768, 0.15F},  // balanced
-      {Technique::Epipolar, 1024, 1024, 0.1F}, // high
-      {Technique::Exact, 1024, 1024, 0.1F},    // reference
+      {Technique::Epipolar, ShadowFilter::Nearest, 576, 192, 4, 0.08F, 0.05F, 0.001F}, // performance
+      {Technique::Epipolar, ShadowFilter::Nearest, 768, 256, 3, 0.06F, 0.03F, 0.002F}, // balanced
+      {Technique::Epipolar, ShadowFilter::Nearest, 1152, 512, 1, 0.04F, 0.02F, 0.01F}, // high
+      {Technique::Exact, ShadowFilter::Nearest, 1152, 512, 1, 0.04F, 0.02F, 0.01F},    // reference
   };
   const Row& row = kRows[static_cast<int>(profile)];
   Settings settings;
   settings.technique = row.technique;
+  settings.shadowFilter = row.filter;
   settings.slices = row.slices;
   settings.samples = row.samples;
+  settings.rowStep = row.rowStep;
   settings.breakThreshold = row.breakThreshold;
+  settings.bendThreshold = row.bendThreshold;
+  settings.leastWeight = row.leastWeight;
   return settings;
 }
 

@@ -5,6 +5,8 @@ namespace tyndall {
 void PassRecorder::beginFrame() {
   passes_.clear();
   fixupPixels_ = 0;
+  marched_ = 0;
+  counts_.clear();
 }
 
 void PassRecorder::skip(const std::string& pass, const std::string& why) {
@@ -34,6 +36,29 @@ void PassRecorder::end() {
     gl_.QueryCounter(passes_.back().to.name(), gl::TIMESTAMP);
   }
   if (gl_.version >= 43 && gl_.PopDebugGroup) gl_.PopDebugGroup();
+}
+
+void PassRecorder::beginCount() {
+  gl::Int busy = 0;
+  gl_.GetQueryiv(gl::SAMPLES_PASSED, gl::CURRENT_QUERY, &busy);
+  counting_ = busy == 0;
+  if (!counting_) return;
+  counts_.emplace_back(gl_);
+  gl_.BeginQuery(gl::SAMPLES_PASSED, counts_.back().name());
+}
+
+void PassRecorder::endCount() {
+  if (counting_) gl_.EndQuery(gl::SAMPLES_PASSED);
+}
+
+std::uint64_t PassRecorder::marched() {
+  for (const gl::Query& count : counts_) {
+    gl::Uint64 rays = 0;
+    gl_.GetQueryObjectui64v(count.name(), gl::QUERY_RESULT, &rays);
+    marched_ += rays;
+  }
+  counts_.clear();
+  return marched_;
 }
 
 std::vector<PassStatistics> PassRecorder::collect() {

@@ -17,6 +17,9 @@ public:
   void skip(const std::string& pass, const std::string& why);
   void countFixup(std::uint64_t pixels) { fixupPixels_ += pixels; }
   std::uint64_t fixupPixels() const { return fixupPixels_; }
+  void countMarched(std::uint64_t rays) { marched_ += rays; }
+  /// Rays integrated in the frame; waits for the queries of runCounted().
+  std::uint64_t marched();
 
   /// Runs a pass: times it and, where the context has debug groups, names it for GL debuggers.
   template <typename Pass>
@@ -25,6 +28,18 @@ public:
     const bool ok = pass();
     end();
     return ok;
+  }
+
+  /// Runs a pass of which every fragment that is not discarded marches one ray. Not counted while a query of the
+  /// engine's own is under way.
+  template <typename Pass>
+  bool runCounted(const std::string& name, Pass&& pass) {
+    return run(name, [&] {
+      beginCount();
+      const bool ok = pass();
+      endCount();
+      return ok;
+    });
   }
 
   /// Passes of the frame in order; waits for timer queries.
@@ -37,12 +52,17 @@ private:
   };
   void begin(const std::string& name);
   void end();
+  void beginCount();
+  void endCount();
 
   const gl::Functions& gl_;
   PassTiming timing_;
   std::chrono::steady_clock::time_point start_;
   std::vector<Timed> passes_;
   std::uint64_t fixupPixels_ = 0;
+  std::uint64_t marched_ = 0;
+  std::vector<gl::Query> counts_;
+  bool counting_ = false;
 };
 
 } // namespace tyndall

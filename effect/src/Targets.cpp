@@ -13,12 +13,12 @@ struct Format {
 };
 
 constexpr Format kR32{gl::R32F, gl::RED, 4}, kRg32{gl::RG32F, gl::RG, 8}, kRgba32{gl::RGBA32F, gl::RGBA, 16},
-    kRgba16{gl::RGBA16F, gl::RGBA, 8};
+    kRgba16{gl::RGBA16F, gl::RGBA, 8}, kUnorm2{gl::RG16, gl::RG, 4}, kUnorm4{gl::RGBA16, gl::RGBA, 8};
 
 struct Row {
   const char* name;
-  Format coloured;   // where three channels are needed
-  Format monochrome; // where one is enough
+  Format wide;   // three channels of radiance, or float depths
+  Format narrow; // one channel, or 16-bit depths
   const char* size;
   const char* reason;
 };
@@ -28,21 +28,28 @@ constexpr Row kRows[] = {
     {"transmittance", kRgba32, kRgba32, "image", "where the engine wants its own inscatter and a composite"},
     {"slice table", kRgba32, kRgba32, "slices x (2 + 2 views)", "the slices' geometry, computed in double"},
     {"sample ends", kR32, kR32, "slices x samples", "distance along the camera ray; float, for breaks and the march"},
-    {"marks", kRgba32, kRgba32, "slices x samples / 64", "four masks of 16 samples, integers as floats"},
-    {"refined marks", kRgba32, kRgba32, "slices x samples / 64", "the marks with those of the refinement"},
+    {"marks", kUnorm4, kUnorm4, "slices x samples / 64", "four masks of 16 samples"},
+    {"refined marks", kUnorm4, kUnorm4, "slices x samples / 64", "the marks with those of the refinement"},
     {"marched", kRgba16, kR32, "slices x (samples / 16 + 1)", "inscatter of the regular march samples"},
-    {"extra", kRgba16, kR32, "slices x samples", "inscatter of the march samples between, packed"},
-    {"epipolar inscatter", kRgba16, kR32, "slices x samples", "inscatter of all samples"},
-    {"row depths", kRgba32, kRgba32, "slices x texels / 4", "the shadow map along each slice"},
-    {"row nodes", kRg32, kRg32, "slices x texels / 16", "the tree's finest level, to gather the others from"},
-    {"row tree", kRg32, kRg32, "slices x nodes", "all levels of the min/max tree"},
+    {"extra offsets", kR32, kR32, "slices x (samples / 64 + 1)", "where a chunk's extra samples are packed"},
+    {"extra", kRgba16, kRgba32, "slices x samples / 4", "inscatter of the march samples between, packed; red"},
+    {"extra green", kRgba16, kRgba16, "slices x samples / 4", "the same in green"},
+    {"extra blue", kRgba16, kRgba16, "slices x samples / 4", "the same in blue"},
+    {"epipolar inscatter", kRgba16, kRg32, "slices x samples", "inscatter of all samples, with their distance"},
+    {"row depths", kRgba32, kUnorm4, "slices x texels / 4", "the shadow map along each slice"},
+    {"row nodes", kRg32, kUnorm2, "slices x texels / 16", "the tree's finest level, to gather the others from"},
+    {"row tree", kRg32, kUnorm2, "slices x nodes", "all levels of the min/max tree"},
+    {"view", kRgba32, kRgba32, "image", "debug views of slices: what is counted or shown, until all lights are done"},
+    {"view exact", kRgba32, kRgba32, "image", "debug view of the difference: exact's inscatter"},
+    {"view row means", kR32, kR32, "image height x 1", "the same: its mean over each row of pixels"},
+    {"view mean", kR32, kR32, "1 x 1", "the same: its mean"},
 };
 
 } // namespace
 
-gl::Uint Targets::get(Target target, int width, int height, bool coloured) {
+gl::Uint Targets::get(Target target, int width, int height, bool wide) {
   const auto index = static_cast<std::size_t>(target);
-  const Format& format = coloured ? kRows[index].coloured : kRows[index].monochrome;
+  const Format& format = wide ? kRows[index].wide : kRows[index].narrow;
   Slot& slot = slots_[index];
   if (slot.texture && slot.width == width && slot.height == height && slot.format == format.internal)
     return slot.texture.name();

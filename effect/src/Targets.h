@@ -17,11 +17,18 @@ enum class Target {
   Marks,
   RefinedMarks,
   Marched,
+  ExtraOffsets,
   Extra,
+  ExtraGreen,
+  ExtraBlue,
   EpipolarInscatter,
   RowDepths,
   RowNodes,
   RowTree,
+  View,
+  ViewExact,
+  ViewRowMeans,
+  ViewMean,
   Count
 };
 
@@ -29,8 +36,8 @@ class Targets {
 public:
   explicit Targets(const gl::Functions& gl) : gl_(gl) {}
 
-  /// The texture at a size; one that holds radiance has three channels if `coloured`. 0 if GL is out of memory.
-  gl::Uint get(Target target, int width, int height, bool coloured = true);
+  /// The texture at a size, in the wide or the narrow one of its two formats. 0 if GL is out of memory.
+  gl::Uint get(Target target, int width, int height, bool wide = true);
 
   /// The stencil buffer of the image; 0 if GL is out of memory.
   gl::Uint stencil(int width, int height);

@@ -1,4 +1,9 @@
-// Masks of 16 samples, bit j for sample j of its segment. Bit 0, the regular march sample, is always set.
+// Masks of 16 samples, bit j for sample j of its segment; four of them make a chunk of 64. Bit 0 of each, the regular
+// march sample, is always set and marched by itself; the marked samples between are packed, four to a texel.
+
+// As textures hold them: 16-bit normalised integers.
+ivec4 masksOf(vec4 stored) { return ivec4(stored * 65535.0 + 0.5); }
+vec4 storedMasks(ivec4 masks) { return vec4(masks) / 65535.0; }
 
 int popcount(int m) {
   m = m - ((m >> 1) & 0x5555);
@@ -10,3 +15,12 @@ int popcount(int m) {
 // Index of the highest and of the lowest bit set; GLSL 3.30 has no findMSB. A float's exponent is its logarithm.
 int highestBit(int m) { return (floatBitsToInt(float(m)) >> 23) - 127; }
 int lowestBit(int m) { return highestBit(m & -m); }
+
+// Marked samples between the regular ones of a chunk, and before a sample of it.
+int extraSamples(ivec4 masks) {
+  return popcount(masks.x & ~1) + popcount(masks.y & ~1) + popcount(masks.z & ~1) + popcount(masks.w & ~1);
+}
+int extraRank(ivec4 masks, int index) {
+  ivec4 before = clamp(ivec4(index) - ivec4(0, 16, 32, 48), ivec4(0), ivec4(16));
+  return extraSamples(masks & ((ivec4(1) << before) - 1));
+}

@@ -10,6 +10,9 @@
 #define SPECTRUM(v) (v).rgb
 #endif
 
+// T(s) of DESIGN 1.
+vec3 transmittanceTo(float s) { return vec3(exp(-SPECTRUM(extinction) * s)); }
+
 // Sum over constituents of sigma_k p_k, 1/(world unit sr). Takes 1 - cos and 1 + cos of the scattering angle.
 Spectrum scatteringTowardsEye(float oneMinusCos, float onePlusCos) {
   float cosSquared = 0.25 * (onePlusCos - oneMinusCos) * (onePlusCos - oneMinusCos);

@@ -1,13 +1,13 @@
-// The light of one camera ray as a draw for one shadow view sees it: the view's own part along the slice's row and, in
+// The light of [from, end] of a camera ray as a draw for one shadow view sees it: the view's own part along the slice's row and, in
 // the draw that has it (march.z), what lies outside all views.
 
 #if SHADOW_VIEWS > 0
 Light ownedLight(Airlight light, ViewSegment segment, int slice) { return rowLight(light, segment, slice); }
 #endif
 
-Light rowShadowedLight(Ray ray, float end, int slice) {
+Light rowShadowedLight(Ray ray, float from, float end, int slice) {
   Airlight light = airlightOf(ray);
-  float s0 = 0.0, s1 = min(end, extinction.w);
+  float s0 = from, s1 = min(end, extinction.w);
   litRange(light, s0, s1);
   return shadowedLight(light, ray, s0, s1, march.x, march.z != 0, slice);
 }

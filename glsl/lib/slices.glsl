@@ -1,15 +1,16 @@
 // Slices: epipolar lines of the image, each one column of every epipolar texture. A slice runs from its entry into the
 // image (or the epipole) to its exit border point; sample j of n lies at j / (n - 1) of the way.
 
-// Width: slices. Row 0: entry xy, exit xy (pixels). Row 1: samples, length in pixels. Rows 2 + 2 v, 3 + 2 v for shadow
-// view v: origin xy and step xy of its row (texels; the greater component of the step is 1), texels of the row.
+// Width: slices. Row 0: entry xy, exit xy (pixels). Row 1: sample number at a window position p, dot(xy, p) + z, and
+// the last sample's number. Rows 2 + 2 v, 3 + 2 v for shadow
+// view v: origin xy and step xy of its row (shadow texels; the greater component of the step is rowStep), texels of the row.
 uniform sampler2D sliceTable;
 
 vec4 sliceEnds(int slice) { return texelFetch(sliceTable, ivec2(slice, 0), 0); }
-int sliceSamples(int slice) { return int(texelFetch(sliceTable, ivec2(slice, 1), 0).x); }
+int sliceSamples(int slice) { return int(texelFetch(sliceTable, ivec2(slice, 1), 0).w) + 1; }
 
-vec2 samplePosition(vec4 ends, int samples, int index) {
-  return mix(ends.xy, ends.zw, float(index) / float(max(samples - 1, 1)));
+vec2 samplePosition(vec4 ends, int samples, float index) {
+  return mix(ends.xy, ends.zw, index / float(max(samples - 1, 1)));
 }
 
 // The slice that runs through a window position, as a real number: slice i has the value i. Nothing divides by the

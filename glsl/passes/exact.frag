@@ -53,7 +53,7 @@ void main() {
   vec3 transmittance = vec3(0.0);
   for (int k = 0; k < samples; ++k) {
     float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy), k)), 0.0);
-    transmittance += exp(-extinction.rgb * end) / float(samples);
+    transmittance += transmittanceTo(end) / float(samples);
     int at = k; // insertion sort, ascending
     for (; at > 0 && ends[at - 1] > end; --at) ends[at] = ends[at - 1];
     ends[at] = end;

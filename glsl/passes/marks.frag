@@ -1,29 +1,21 @@
 // Marks: which samples are marched; the others are interpolated between them (Yusov 2013, "Sample classification").
-// Reads sampleEnds. Writes marks: slices x samples / 64, RGBA32F, four masks of 16 samples (lib/bits.glsl): the first
-// of each segment, both sides of every break, the slice's last sample, and every fourth near an epipole on the screen.
+// Reads sampleEnds. Writes marks: slices x samples / 64, RGBA16, four masks of 16 samples (lib/bits.glsl): the first
+// of each segment, both sides of every break, the slice's last sample, and every second or fourth near an epipole.
 #include "shared.glsl"
+#include "lib/bits.glsl"
 #include "lib/slices.glsl"
+#include "lib/breaks.glsl"
 
 uniform sampler2D sampleEnds;
 layout(location = 0) out vec4 outMarks;
-
-// On a plane the inverse distance is close to linear along a line of the image. A break is where neither side's line
-// predicts the other sample.
-bool isBreak(float before, float low, float high, float after) {
-  float a = 1.0 / max(low, 1e-30), b = 1.0 / max(high, 1e-30);
-  float allowed = thresholds.x * min(a, b);
-  if (abs(b - a) <= allowed) return false;
-  float fromLow = before >= 0.0 ? 2.0 * a - 1.0 / max(before, 1e-30) : a;
-  float fromHigh = after >= 0.0 ? 2.0 * b - 1.0 / max(after, 1e-30) : b;
-  return min(abs(fromLow - b), abs(fromHigh - a)) > allowed;
-}
 
 void main() {
   int slice = int(gl_FragCoord.x), first = 64 * int(gl_FragCoord.y), samples = sliceSamples(slice);
   float before = first >= 2 ? texelFetch(sampleEnds, ivec2(slice, first - 2), 0).r : -1.0;
   float low = first >= 1 ? texelFetch(sampleEnds, ivec2(slice, first - 1), 0).r : -1.0;
   float high = texelFetch(sampleEnds, ivec2(slice, first), 0).r;
-  bool dense = first == 0 && sliceMap.w != 0.0; // lines leave through all four sides: the epipole is in the image
+  // The slice begins at an epipole in the image, or near one.
+  bool dense = first == 0 && abs(epipole.z) > 0.0 && distance(sliceEnds(slice).xy * epipole.z, epipole.xy) < 32.0 * abs(epipole.z);
   ivec4 masks = ivec4(0);
   // Sample index - 1 lies between `before` and `high`: low; a break between low and high marks both.
   bool carried = false; // the sample before has a break behind it
@@ -40,9 +32,9 @@ void main() {
   for (int s = 0; s < 4; ++s) {
     int from = first + 16 * s;
     if (from < samples) masks[s] |= 1;
-    if (dense && s < 2) masks[s] |= 0x1111;
+    if (dense && s < 2) masks[s] |= s == 0 ? 0x5555 : 0x1111;
     int valid = clamp(samples - from, 0, 16);
     masks[s] &= (1 << valid) - 1;
   }
-  outMarks = vec4(masks);
+  outMarks = storedMasks(masks);
 }

@@ -21,6 +21,11 @@ layout(location = 1) out vec4 outTransmittance;
 void main() {
   float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy), 0)), 0.0);
   int slice = neighbourSlices(sliceCoordinate(gl_FragCoord.xy) + 0.5).x;
-  outInscatter = vec4(min(lightColour.rgb * vec3(rowShadowedLight(cameraRay(gl_FragCoord.xy), end, slice)), limits.xxx), 0.0);
-  outTransmittance = vec4(exp(-extinction.rgb * end), 1.0);
+  vec3 light = vec3(rowShadowedLight(cameraRay(gl_FragCoord.xy), 0.0, end, slice));
+#ifdef COUNT_VISITS
+  outInscatter = vec4(visits);
+#else
+  outInscatter = vec4(min(lightColour.rgb * light, limits.xxx), 0.0);
+#endif
+  outTransmittance = vec4(transmittanceTo(end), 1.0);
 }

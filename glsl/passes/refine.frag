@@ -1,11 +1,15 @@
 // Refine: more march samples where the inscatter itself bends. Between regular march samples that a line through their
-// neighbours predicts, interpolation is good enough; elsewhere every fourth sample is marched, or every one.
-// Reads marks and marched. Writes refined marks: slices x samples / 64, RGBA32F, as marks.frag does.
+// neighbours predicts, interpolation is good enough; elsewhere every fourth sample is marched, or every second one. Not
+// where breaks have filled a segment already: there it is the ends that bend the inscatter. Slices too short to tell are
+// refined.
+// Reads marks and marched. Writes refined marks: slices x samples / 64, RGBA16, as marks.frag does.
 #include "shared.glsl"
 #include "lib/slices.glsl"
+#include "lib/bits.glsl"
 
 uniform sampler2D marks;
 uniform sampler2D marched;
+const int kCrowded = 12; // march samples in a segment
 layout(location = 0) out vec4 outMarks;
 
 vec3 at(int slice, int segment, int last) { return texelFetch(marched, ivec2(slice, clamp(segment, 0, last)), 0).rgb; }
@@ -18,16 +22,17 @@ float bend(vec3 a, vec3 b, vec3 c) {
 
 void main() {
   int slice = int(gl_FragCoord.x), first = 4 * int(gl_FragCoord.y), samples = sliceSamples(slice), last = (samples - 1) / 16;
-  ivec4 masks = ivec4(texelFetch(marks, ivec2(slice, int(gl_FragCoord.y)), 0));
+  ivec4 masks = masksOf(texelFetch(marks, ivec2(slice, int(gl_FragCoord.y)), 0));
   vec3 a = at(slice, first - 1, last), b = at(slice, first, last), c = at(slice, first + 1, last);
   for (int s = 0; s < 4; ++s) {
     vec3 d = at(slice, first + s + 2, last);
     float most = max(first + s > 0 ? bend(a, b, c) : 0.0, first + s + 2 <= last ? bend(b, c, d) : 0.0);
+    if (last < 2) most = 1.0;
     int valid = (1 << clamp(samples - 16 * (first + s), 0, 16)) - 1;
-    if (most > thresholds.z) masks[s] |= (most > 4.0 * thresholds.z ? 0x5555 : 0x1111) & valid;
+    if (most > thresholds.z && popcount(masks[s]) < kCrowded) masks[s] |= (most > 4.0 * thresholds.z ? 0x5555 : 0x1111) & valid;
     a = b;
     b = c;
     c = d;
   }
-  outMarks = vec4(masks);
+  outMarks = storedMasks(masks);
 }

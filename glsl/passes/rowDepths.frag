@@ -1,5 +1,6 @@
 // Row depths: the shadow map along each slice, one texel a step, four steps a fragment (Chen 2011, 3.2).
-// Reads the slice table and the shadow map (glass map) of one view. Writes rowDepths: slices x texels / 4, RGBA32F.
+// Reads the slice table and the shadow map (glass map) of one view. Writes rowDepths: slices x texels / 4, RGBA16 or
+// RGBA32F, coded depths.
 #include "shared.glsl"
 #include "lib/slices.glsl"
 #include "lib/shadowMap.glsl"
@@ -28,11 +29,27 @@ vec2 boundsAt(vec2 p, int view) {
 #endif
 }
 
+// Coded bounds, rounded outward where they are stored in 16 bit: the texture's own rounding then changes nothing.
+vec2 codedBounds(vec2 p, int view) {
+  vec2 bounds = boundsAt(p, view);
+  bounds = mix(bounds * rowCode.x + rowCode.y, rowCode.zz, greaterThan(bounds, vec2(1e38)));
+#if FILTER_BILINEAR || GLASS
+  if (rowCode.w > 0.0) bounds = vec2(floor(bounds.x * rowCode.w), ceil(bounds.y * rowCode.w)) / rowCode.w;
+#endif
+  return bounds;
+}
+
 void main() {
   int slice = int(gl_FragCoord.x), first = 4 * int(gl_FragCoord.y), view = march.x;
+  int last = (max(int(texelFetch(sliceTable, ivec2(slice, march.y + 1), 0).x), 1) - 1) | 15;
+  if (first > last) { // behind the row's last node: never read by itself, but part of the coarse nodes
+    outDepths = vec4(rowCode.z);
+    return;
+  }
   vec4 row = texelFetch(sliceTable, ivec2(slice, march.y), 0);
   vec2 p = row.xy + row.zw * (float(first) + 0.5);
-  vec2 a = boundsAt(p, view), b = boundsAt(p + row.zw, view), c = boundsAt(p + 2.0 * row.zw, view), d = boundsAt(p + 3.0 * row.zw, view);
+  vec2 a = codedBounds(p, view), b = codedBounds(p + row.zw, view);
+  vec2 c = codedBounds(p + 2.0 * row.zw, view), d = codedBounds(p + 3.0 * row.zw, view);
 #if FILTER_BILINEAR || GLASS
   outDepths = vec4(min(min(a.x, b.x), min(c.x, d.x)), max(max(a.y, b.y), max(c.y, d.y)), 0.0, 0.0);
 #else

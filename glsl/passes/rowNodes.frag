@@ -1,5 +1,5 @@
 // Row nodes: min and max of sixteen texels of each row, the finest level of the tree (level 2).
-// Reads rowDepths. Writes rowNodes: slices x texels / 16, RG32F.
+// Reads rowDepths. Writes rowNodes: slices x texels / 16, RG.
 #include "shared.glsl"
 uniform sampler2D rowDepths;
 

@@ -1,5 +1,5 @@
 // Row tree: all levels of the min/max tree behind one another, each gathered from the finest (Chen 2011, 3.3).
-// Reads rowNodes: slices x texels / 16, RG32F. Writes rowTree: slices x nodes, RG32F (layout: lib/tree.glsl).
+// Reads rowNodes: slices x texels / 16, RG. Writes rowTree: slices x nodes, RG (layout: lib/tree.glsl).
 #include "shared.glsl"
 uniform sampler2D rowNodes;
 

@@ -1,7 +1,7 @@
 // Unwarp: from slices to pixels, bilinear over two slices and two samples each, each sample weighted by how well its
 // distance agrees with the pixel's (Yusov 2013, "Transformation from epipolar to rectangular coordinates"). A pixel that no
-// sample serves is discarded, so that its stencil stays for the fix-up. Reads the slice table, sampleEnds,
-// epipolarInscatter and the scene depth. Writes inscatter and transmittance as exact.frag does.
+// sample serves is discarded, so that its stencil stays for the fix-up. Reads the slice table, epipolarInscatter
+// and the scene depth. Writes inscatter and transmittance as exact.frag does.
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
@@ -10,7 +10,6 @@
 #define Light vec3
 #include "lib/stored.glsl"
 
-uniform sampler2D sampleEnds;
 uniform sampler2D epipolarInscatter;
 
 #if COMPOSITE
@@ -21,20 +20,29 @@ layout(location = 0) out vec4 outInscatter;
 layout(location = 1) out vec4 outTransmittance;
 #endif
 
-void addSlice(int slice, float sliceWeight, vec2 p, float inverseEnd, inout vec4 sum) {
-  vec4 ends = sliceEnds(slice);
-  vec2 shape = texelFetch(sliceTable, ivec2(slice, 1), 0).xy; // samples, length
-  float y = clamp(dot(p - ends.xy, ends.zw - ends.xy) / max(shape.y * shape.y, 1e-12), 0.0, 1.0) * max(shape.x - 1.0, 0.0);
-  int low = min(int(y), max(int(shape.x) - 2, 0));
+// Sums over samples: inscatter and weight of the bilateral filter; inscatter, logarithm of the distance and weight of the
+// plain bilinear one.
+struct Sums {
+  vec4 agreeing, plain;
+  float plainWeight;
+};
+
+// Adds two samples of a slice, bilinearly, and by how many times the pixel's distance theirs is.
+void addSlice(int slice, float sliceWeight, vec2 p, float logEnd, inout Sums sums) {
+  vec4 line = texelFetch(sliceTable, ivec2(slice, 1), 0);
+  float y = dot(p, line.xy) + line.z, pixel = length(line.xy);
+  if (y < -pixel || y > line.w + pixel) return; // the slice does not come as far
+  y = clamp(y, 0.0, line.w);
+  int low = min(int(y), max(int(line.w) - 1, 0));
   float f = y - float(low);
   for (int k = 0; k < 2; ++k) {
-    ivec2 at = ivec2(slice, low + k);
-    float end = texelFetch(sampleEnds, at, 0).r;
-    // How far the inverse distances differ, as a part of the pixel's own.
-    float change = abs(1.0 / max(end, 1e-30) - inverseEnd) / inverseEnd;
-    float agreement = min(1.0, thresholds.x / max(change, 1e-20));
-    float weight = end < 0.0 ? 0.0 : sliceWeight * (k == 0 ? 1.0 - f : f) * agreement * agreement * agreement * agreement;
-    sum += weight * vec4(texelFetch(epipolarInscatter, at, 0).rgb, 1.0);
+    vec4 stored = texelFetch(epipolarInscatter, ivec2(slice, low + k), 0);
+    float weight = sliceWeight * (k == 0 ? 1.0 - f : f), sampleLogEnd = storedLogEnd(stored);
+    float agreement = min(1.0, thresholds.w / max(abs(sampleLogEnd - logEnd), 1e-20));
+    agreement *= agreement;
+    sums.agreeing += weight * agreement * agreement * vec4(stored.rgb, 1.0);
+    sums.plain += weight * vec4(stored.rgb, sampleLogEnd);
+    sums.plainWeight += weight;
   }
 }
 
@@ -44,11 +52,18 @@ void main() {
   float coordinate = sliceCoordinate(gl_FragCoord.xy);
   ivec2 slices = neighbourSlices(coordinate);
   float f = coordinate - floor(coordinate);
-  float inverseEnd = 1.0 / max(min(end, extinction.w), 1e-30);
-  vec4 sum = vec4(0.0);
-  addSlice(slices.x, 1.0 - f, gl_FragCoord.xy, inverseEnd, sum);
-  addSlice(slices.y, f, gl_FragCoord.xy, inverseEnd, sum);
-  if (!(sum.w >= thresholds.y)) discard;
-  outInscatter = vec4(min(lightFromStored(sum.rgb / sum.w), limits.xxx), 0.0);
-  outTransmittance = vec4(exp(-extinction.rgb * end), 1.0);
+  float logEnd = log2(max(min(end, extinction.w), 1e-30));
+  Sums sums = Sums(vec4(0.0), vec4(0.0), 0.0);
+  addSlice(slices.x, 1.0 - f, gl_FragCoord.xy, logEnd, sums);
+  addSlice(slices.y, f, gl_FragCoord.xy, logEnd, sums);
+  // Where the samples' distances lead to the pixel's, one surface runs through all of them: to leave out those that
+  // differ more, towards a horizon, say, would only pull to one side.
+  bool oneSurface = abs(sums.plain.a - logEnd * sums.plainWeight) < 0.125 * thresholds.w * sums.plainWeight;
+  vec4 sum = oneSurface ? vec4(sums.plain.rgb, sums.plainWeight) : sums.agreeing;
+  // Next to a lamp inscatter changes from pixel to pixel, and at it every direction has a limit of its own.
+  const float kNear = LIGHT_KIND == 0 ? EPIPOLE_GAP : LAMP_PIXELS;
+  if (distance(gl_FragCoord.xy * epipole.z, epipole.xy) < (epipole.z > 0.0 ? kNear : EPIPOLE_GAP) * abs(epipole.z)) discard;
+  if (!(sum.w >= thresholds.y && sum.w > 0.0)) discard;
+  outInscatter = vec4(min(lightFromStored(sum.rgb / sum.w, cameraRay(gl_FragCoord.xy)), limits.xxx), 0.0);
+  outTransmittance = vec4(transmittanceTo(end), 1.0);
 }

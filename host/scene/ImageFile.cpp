@@ -86,6 +86,27 @@ glm::vec3 toneMapPixel(const float* rgb, float exposure) {
   return colour;
 }
 
+/// sRGB bytes of display-linear colours, each the mean of supersample x supersample pixels.
+template <typename Display>
+std::vector<std::uint8_t> encode(const float* rgb, int width, int height, int supersample, const Display& display) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(3 * pixelCount(width, height));
+  const std::size_t rowLength = pixelCount(width, supersample);
+  for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y)
+    for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
+      glm::vec3 sum(0);
+      for (int i = 0; i < supersample * supersample; ++i) {
+        const std::size_t row = y * supersample + i / supersample;
+        const std::size_t column = x * supersample + i % supersample;
+        sum += display(rgb + 3 * (row * rowLength + column));
+      }
+      sum /= static_cast<float>(supersample * supersample);
+      for (int c = 0; c < 3; ++c)
+        bytes.push_back(toSrgb8(sum[c]));
+    }
+  return bytes;
+}
+
 } // namespace
 
 const std::vector<float>* Image::find(const std::string& name) const {
@@ -172,22 +193,13 @@ void writePng(const std::filesystem::path& file, int width, int height, const st
 }
 
 std::vector<std::uint8_t> toneMap(const float* rgb, int width, int height, float exposure, int supersample) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(3 * pixelCount(width, height));
-  const std::size_t rowLength = pixelCount(width, supersample);
-  for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y)
-    for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
-      glm::vec3 sum(0);
-      for (int i = 0; i < supersample * supersample; ++i) {
-        const std::size_t row = y * supersample + i / supersample;
-        const std::size_t column = x * supersample + i % supersample;
-        sum += toneMapPixel(rgb + 3 * (row * rowLength + column), exposure);
-      }
-      sum /= static_cast<float>(supersample * supersample);
-      for (int c = 0; c < 3; ++c)
-        bytes.push_back(toSrgb8(sum[c]));
-    }
-  return bytes;
+  return encode(rgb, width, height, supersample,
+                [exposure](const float* pixel) { return toneMapPixel(pixel, exposure); });
+}
+
+std::vector<std::uint8_t> encodeColours(const float* rgb, int width, int height, int supersample) {
+  return encode(rgb, width, height, supersample,
+                [](const float* pixel) { return glm::clamp(glm::vec3(pixel[0], pixel[1], pixel[2]), 0.0F, 1.0F); });
 }
 
 } // namespace host

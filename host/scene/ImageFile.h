@@ -41,4 +41,7 @@ void writePng(const std::filesystem::path& file, int width, int height, const st
 /// a display would show them: bright edges are smooth, too.
 std::vector<std::uint8_t> toneMap(const float* rgb, int width, int height, float exposure = 1, int supersample = 1);
 
+/// The same for colours that mean numbers: cut off at 0 and 1, the sRGB transfer function, no exposure, no curve.
+std::vector<std::uint8_t> encodeColours(const float* rgb, int width, int height, int supersample = 1);
+
 } // namespace host

@@ -16,6 +16,10 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kProfiles = {"performance", "balanced", "high", "reference"};
 constexpr std::array<std::string_view, 3> kTechniques = {"exact", "tree", "epipolar"};
+// In the order of tyndall::View.
+constexpr std::array<std::string_view, 10> kViews = {"composite",     "slices",       "samples",     "breaks",
+                                                     "march-samples", "fixup-pixels", "node-visits", "inscatter",
+                                                     "transmittance", "difference"};
 constexpr int kMaxFrame = 999999;
 constexpr int kMaxRepeat = 10000;
 constexpr int kMaxSupersample = 8;
@@ -27,13 +31,18 @@ Files
   axis in world units; 1e30 where there is only sky). PNG: the tone-mapped composite.
   With --supersample the PNG is the mean after tone mapping; the EXR keeps every pixel that was rendered.
   Files are written beside their name and renamed when complete.
+Views
+  composite (default), inscatter, transmittance, and difference (to exact; grey 0, red +10 %, blue -10 % of the mean);
+  with --technique tree or epipolar slices and node-visits (black 0 to white 1023, ticks at 4, 16, 64, 256); with
+  epipolar samples, breaks, march-samples and fixup-pixels. tyndall.h explains the colours. All but composite and
+  inscatter go into the PNG without tone mapping.
 Exit status
   0: done; 1: failed, with one line that names file and cause; 2: wrong usage.)";
 
 /// The options as typed. Numbers are parsed here and not by CLI11, so that nothing but a whole number passes for one.
 struct Typed {
-  std::string scene, camera, eye, target, fov, sun, size, supersample, profile, technique, slices, samples, filter,
-      medium, shadowSize, cascades, frames, repeat, context, stats, exposure;
+  std::string scene, camera, eye, target, fov, sun, size, supersample, profile, technique, view, slices, samples,
+      filter, medium, shadowSize, cascades, frames, repeat, context, stats, exposure;
   std::vector<std::string> out;
   bool reversedDepth = false;
 };
@@ -150,6 +159,12 @@ void readView(const Typed& typed, Options& options) {
   options.lookAt = lookAt;
 }
 
+tyndall::View parseView(const std::string& name) {
+  const auto* const found = std::find(kViews.begin(), kViews.end(), name);
+  if (found == kViews.end()) fail("--view", name, fmt::format("must be one of {}", fmt::join(kViews, ", ")));
+  return static_cast<tyndall::View>(found - kViews.begin());
+}
+
 void readQuality(const Typed& typed, Options& options) {
   if (std::find(kProfiles.begin(), kProfiles.end(), typed.profile) == kProfiles.end())
     fail("--profile", typed.profile, "must be performance, balanced, high or reference");
@@ -160,6 +175,7 @@ void readQuality(const Typed& typed, Options& options) {
   options.technique = !typed.technique.empty() ? typed.technique : typed.profile == "reference" ? "exact" : "epipolar";
   if (std::find(kTechniques.begin(), kTechniques.end(), options.technique) == kTechniques.end())
     fail("--technique", options.technique, "must be exact, tree or epipolar");
+  if (!typed.view.empty()) options.view = parseView(typed.view);
   if (typed.filter == "bilinear")
     options.shadowFilter = tyndall::ShadowFilter::Bilinear;
   else if (typed.filter != "nearest")
@@ -203,6 +219,7 @@ void addOptions(CLI::App& app, Typed& typed) {
       ->type_name("NAME");
   app.add_option("--technique", typed.technique, "exact, tree or epipolar; by the profile if not given")
       ->type_name("NAME");
+  app.add_option("--view", typed.view, "a debug view instead of the composite, see below")->type_name("NAME");
   app.add_option("--slices", typed.slices, "epipolar lines; by the profile if not given")->type_name("N");
   app.add_option("--samples", typed.samples, "samples of a slice, a multiple of 64; by the profile if not given")
       ->type_name("N");

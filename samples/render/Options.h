@@ -41,6 +41,7 @@ struct Options {
   std::string technique = "exact";
   std::optional<int> slices;  ///< none: by the profile
   std::optional<int> samples; ///< none: by the profile
+  tyndall::View view = tyndall::View::Composite;
   tyndall::ShadowFilter shadowFilter = tyndall::ShadowFilter::Nearest;
   std::optional<std::filesystem::path> medium;
   int shadowSize = 4096;

@@ -52,15 +52,6 @@ nlohmann::ordered_json passesOf(const tyndall::Statistics& statistics) {
   return passes;
 }
 
-/// The exact technique marches every pixel's ray once for each light, in a pass named "exact light N".
-std::int64_t marchedSamples(const tyndall::Statistics& statistics, const Options& options) {
-  const auto marches =
-      std::count_if(statistics.passes.begin(), statistics.passes.end(), [](const tyndall::PassStatistics& pass) {
-        return pass.skipped.empty() && pass.name.rfind("exact light", 0) == 0;
-      });
-  return static_cast<std::int64_t>(marches) * renderedWidth(options) * renderedHeight(options);
-}
-
 nlohmann::ordered_json statisticsOf(const FrameStatistics& frame, const Options& options, const std::string& driver) {
   const Measurement& measurement = frame.measurement;
   return {{"driver", driver},
@@ -74,7 +65,7 @@ nlohmann::ordered_json statisticsOf(const FrameStatistics& frame, const Options&
             {"max", measurement.milliseconds.back()}}},
           {"bytes", measurement.statistics.bytes},
           {"passes", passesOf(measurement.statistics)},
-          {"marched_samples", marchedSamples(measurement.statistics, options)},
+          {"marched_samples", measurement.statistics.marchedSamples},
           {"fixup_pixels", measurement.statistics.fixupPixels}};
 }
 
@@ -123,9 +114,12 @@ void writePicture(const std::filesystem::path& file, const Picture& picture, con
     host::writeExr(file, imageOf(picture, renderedWidth(options), renderedHeight(options)));
     return;
   }
+  // Radiance takes the film curve; the colours of the other views mean numbers.
+  const bool isRadiance = options.view == tyndall::View::Composite || options.view == tyndall::View::Inscatter;
   const std::vector<float> rgb = topDownRgb(picture.composite, renderedWidth(options), renderedHeight(options));
   host::writePng(file, options.width, options.height,
-                 host::toneMap(rgb.data(), options.width, options.height, exposure, options.supersample));
+                 isRadiance ? host::toneMap(rgb.data(), options.width, options.height, exposure, options.supersample)
+                            : host::encodeColours(rgb.data(), options.width, options.height, options.supersample));
 }
 
 void writeStatistics(const std::filesystem::path& file, const Options& options, const std::string& driver,

@@ -40,6 +40,7 @@ tyndall::Settings settingsOf(const Options& options) {
   settings.technique = options.technique == "exact"  ? tyndall::Technique::Exact
                        : options.technique == "tree" ? tyndall::Technique::Tree
                                                      : tyndall::Technique::Epipolar;
+  settings.view = options.view;
   settings.shadowFilter = options.shadowFilter;
   settings.slices = options.slices.value_or(settings.slices);
   settings.samples = options.samples.value_or(settings.samples);
@@ -139,23 +140,35 @@ void FrameRenderer::restoreColour() const {
   functions.BindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
+double FrameRenderer::renderEffect(const tyndall::Frame& frame) {
+  restoreColour();
+  host::gl().Finish();
+  const auto start = std::chrono::steady_clock::now();
+  const tyndall::Status status = effect_->render(frame);
+  host::gl().Finish();
+  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+  if (!status) throw host::Error("effect: " + status.message);
+  return time.count();
+}
+
+// With --repeat, the timed renders blend straight into the colour, as an engine's do; a last one writes the picture's
+// other channels too.
 Measurement FrameRenderer::measure() {
   struct Run {
     double milliseconds;
     tyndall::Statistics statistics;
   };
   std::vector<Run> runs;
-  const int warmUps = options_.repeat ? 1 : 0;
-  for (int i = 0; i < options_.repeat.value_or(1) + warmUps; ++i) {
-    restoreColour();
-    host::gl().Finish();
-    const auto start = std::chrono::steady_clock::now();
-    const tyndall::Status status = effect_->render(frame_);
-    host::gl().Finish();
-    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-    if (!status) throw host::Error("effect: " + status.message);
-    if (i >= warmUps) runs.push_back({time.count(), effect_->statistics()});
+  tyndall::Frame timed = frame_;
+  if (options_.repeat) {
+    timed.output = {};
+    renderEffect(timed); // warms up
   }
+  for (int i = 0; i < options_.repeat.value_or(1); ++i) {
+    const double milliseconds = renderEffect(timed);
+    runs.push_back({milliseconds, effect_->statistics()});
+  }
+  if (options_.repeat) renderEffect(frame_);
   std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.milliseconds < b.milliseconds; });
   Measurement measurement;
   for (const Run& run : runs)

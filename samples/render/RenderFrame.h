@@ -49,6 +49,7 @@ public:
   const tyndall::Frame& frame() const { return frame_; }
 
   const std::string& driver() const { return context_->driver(); }
+  host::Context::Loader loader() const { return context_->loader(); }
   int lightCount() const { return static_cast<int>(frame_.lights.size()); }
 
   /// What was made up or left out, each line once.
@@ -59,6 +60,7 @@ private:
   std::vector<tyndall::Light> makeLights(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) const;
   void renderShadowMaps(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes);
   void restoreColour() const;
+  double renderEffect(const tyndall::Frame& frame); ///< milliseconds
   Measurement measure();
   void throwGlErrors() const;
 

@@ -163,15 +163,39 @@ enum class ShadowFilter {
 /// Quality against time. The profiles are rows of one table; each knob may be set by itself as well.
 enum class Profile { Performance, Balanced, High, Reference };
 
+/// Debug views: pictures of what the effect did. All but Composite replace the RGB of Frame::colour, which must be
+/// given; outputs are written as ever. Colours are linear, mostly in [0, 1]. Views of slices and samples show the first
+/// light that is drawn, and black where none is. They need Technique::Tree or Epipolar where said, and never a
+/// multisampled scene depth, which only Exact renders.
+enum class View {
+  Composite,     ///< the normal picture
+  Slices,        ///< Tree, Epipolar: each pixel's nearest slice: a hue for 16 of them, every second one darker; the
+                 ///< light's own place in the image white
+  Samples,       ///< Epipolar: samples in each pixel: red counts them, green their quarter, blue their sixteenth
+  Breaks,        ///< Epipolar: samples on the near side of a depth break in red, on the far side in blue
+  MarchSamples,  ///< Epipolar: march samples in each pixel: blue counts the regular ones, red those that breaks, slice
+                 ///< ends and the light's vicinity ask for, green those where the inscatter bends
+  FixupPixels,   ///< Epipolar: pixels that no sample served, red
+  NodeVisits,    ///< Tree, Epipolar: nodes and groups of texels that a ray through the pixel's slice looks at, in all
+                 ///< views. Black 0 over blue, red, yellow to white 1023, by log2(1 + n); ticks of the bar at each
+                 ///< factor of 4. Epipolar marches only some pixels: MarchSamples shows where
+  Inscatter,     ///< radiance that all lights add
+  Transmittance, ///< T(d)
+  Difference,    ///< the technique's inscatter less exact's, which is rendered too: mean over R, G, B, as a part of the
+                 ///< mean of exact over the image. Grey 0, red up to +10 %, blue down to -10 %; ticks every 5 %
+};
+
 struct Settings {
-  Technique technique = Technique::Exact;
+  Technique technique = Technique::Epipolar;
+  View view = View::Composite;
   ShadowFilter shadowFilter = ShadowFilter::Nearest;
-  int slices = 1024;  ///< Tree, Epipolar: epipolar lines, 1 to 8192; never more than pixels on the visible border
-  int samples = 1024; ///< Epipolar: samples of a slice, a multiple of 64 from 64 to 8192; never denser than pixels
-  float breakThreshold = 0.1F; ///< Epipolar: relative change of distance that counts as a depth break, > 0
+  int slices = 1152; ///< Tree, Epipolar: epipolar lines, 1 to 8192; never more than pixels on the visible border
+  int samples = 512; ///< Epipolar: samples of a slice, a multiple of 64 from 64 to 8192; never denser than pixels
+  int rowStep = 1;   ///< Tree, Epipolar: shadow-map texels from one sample of a row to the next, 1 to 8
+  float breakThreshold = 0.04F; ///< Epipolar: relative change of distance that counts as a depth break, > 0
   float bendThreshold =
       0.02F; ///< Epipolar: relative bend of the inscatter along a slice that is marched more finely, > 0
-  float leastWeight = 0.05F; ///< Epipolar: bilateral weight under which a pixel is marched by itself, 0 to 1
+  float leastWeight = 0.01F; ///< Epipolar: bilateral weight under which a pixel is marched by itself, 0 to 1
 };
 
 /// The settings of a profile. Reference is Technique::Exact.
@@ -216,6 +240,9 @@ struct Statistics {
   std::uint64_t bytes = 0;       ///< GL memory the effect holds in textures and buffers
   int compiledPrograms = 0;      ///< shader variants compiled so far
   std::uint64_t fixupPixels = 0; ///< pixels that no epipolar sample served
+  /// Camera rays integrated, over all lights and shadow views; march samples that are integrated together, up to four
+  /// of a slice, count as one. Reading it waits for the GPU.
+  std::uint64_t marchedSamples = 0;
 };
 
 /// Resolves a GL function by name, as glfwGetProcAddress or eglGetProcAddress do.

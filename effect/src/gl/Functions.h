@@ -107,6 +107,7 @@ using Uint64 = std::uint64_t;
   X(void, RenderbufferStorage, (Enum target, Enum format, Sizei width, Sizei height), None)                            \
   X(void, FramebufferRenderbuffer, (Enum target, Enum attachment, Enum kind, Uint renderbuffer), None)                 \
   X(void, ClearBufferiv, (Enum buffer, Int index, const Int* value), None)                                             \
+  X(void, ClearBufferfv, (Enum buffer, Int index, const Float* value), None)                                           \
   X(void, StencilFunc, (Enum function, Int reference, Uint mask), Stencil)                                             \
   X(void, StencilOp, (Enum fail, Enum depthFail, Enum pass), Stencil)                                                  \
   X(void, StencilMask, (Uint mask), Stencil)                                                                           \

@@ -10,10 +10,34 @@ namespace tyndall::gl {
 
 namespace {
 
-constexpr std::array<const char*, 15> kSamplers = {"sceneDepth", "shadowMap",     "glassColour", "glassDepth",
-                                                   "inscatter",  "transmittance", "sliceTable",  "sampleEnds",
-                                                   "marks",      "marched",       "extra",       "epipolarInscatter",
-                                                   "rowDepths",  "rowNodes",      "rowTree"};
+struct Sampler {
+  const char* name;
+  Unit unit;
+};
+constexpr Sampler kSamplers[] = {
+    {"sceneDepth", Unit::SceneDepth},
+    {"shadowMap", Unit::ShadowMap},
+    {"glassColour", Unit::GlassColour},
+    {"glassDepth", Unit::GlassDepth},
+    {"inscatter", Unit::Inscatter},
+    {"transmittance", Unit::Transmittance},
+    {"sliceTable", Unit::SliceTable},
+    {"sampleEnds", Unit::SampleEnds},
+    {"marks", Unit::Marks},
+    {"marched", Unit::Marched},
+    {"extra", Unit::Extra},
+    {"extraGreen", Unit::ExtraGreen},
+    {"extraBlue", Unit::ExtraBlue},
+    {"epipolarInscatter", Unit::EpipolarInscatter},
+    {"rowDepths", Unit::RowDepths},
+    {"rowNodes", Unit::RowNodes},
+    {"rowTree", Unit::RowTree},
+    {"extraOffsets", Unit::ExtraOffsets},
+    {"image", Unit::ViewImage},
+    {"refinedMarks", Unit::ViewImage},
+    {"exactInscatter", Unit::ViewExact},
+    {"meanInscatter", Unit::ViewMean},
+};
 constexpr std::array<const char*, 3> kBlocks = {"FrameBlock", "LightBlock", "EpipolarBlock"};
 
 std::string prologue(const Definitions& definitions) {
@@ -69,7 +93,7 @@ Uint ProgramCache::compile(Enum kind, const std::string& file, const Definitions
 }
 
 Uint ProgramCache::link(const std::string& fragment, const Definitions& definitions, const std::string& vertexFile) {
-  const Uint vertex = compile(VERTEX_SHADER, vertexFile, {});
+  const Uint vertex = compile(VERTEX_SHADER, vertexFile, definitions);
   const Uint pixel = vertex ? compile(FRAGMENT_SHADER, fragment, definitions) : 0;
   if (pixel == 0) {
     if (vertex) gl_.DeleteShader(vertex);
@@ -94,9 +118,9 @@ Uint ProgramCache::link(const std::string& fragment, const Definitions& definiti
     return 0;
   }
   gl_.UseProgram(program);
-  for (std::size_t i = 0; i < kSamplers.size(); ++i)
-    if (const Int location = gl_.GetUniformLocation(program, kSamplers[i]); location >= 0)
-      gl_.Uniform1i(location, static_cast<Int>(i));
+  for (const Sampler& sampler : kSamplers)
+    if (const Int location = gl_.GetUniformLocation(program, sampler.name); location >= 0)
+      gl_.Uniform1i(location, static_cast<Int>(sampler.unit));
   for (std::size_t i = 0; i < kBlocks.size(); ++i)
     if (const Uint index = gl_.GetUniformBlockIndex(program, kBlocks[i]); index != INVALID_INDEX)
       gl_.UniformBlockBinding(program, index, static_cast<Uint>(i));

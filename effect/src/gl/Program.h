@@ -30,7 +30,22 @@ enum class Unit : Uint {
   RowDepths,
   RowNodes,
   RowTree,
-  Upload, ///< where textures are made and filled, so that no other unit's texture is disturbed
+  ExtraGreen = Inscatter, ///< no pass reads both
+  ExtraBlue = Transmittance,
+  ExtraOffsets = RowNodes,
+  ViewImage = Marched, ///< debug views run after the passes that read these, or read neither
+  ViewExact = Extra,
+  ViewMean = EpipolarInscatter,
+  Upload = RowTree + 1, ///< where textures are made and filled, so that no other unit's texture is disturbed
+};
+
+inline constexpr const char* kFullScreen = "passes/fullscreen.vert";
+
+/// What selects a program.
+struct Variant {
+  std::string fragment;
+  Definitions definitions;
+  std::string vertex = kFullScreen;
 };
 
 class Program {
@@ -49,8 +64,6 @@ private:
   const Functions* gl_;
   Uint name_;
 };
-
-inline constexpr const char* kFullScreen = "passes/fullscreen.vert";
 
 /// Compiles variants when they are first asked for and keeps them.
 class ProgramCache {

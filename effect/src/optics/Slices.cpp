@@ -65,7 +65,8 @@ std::array<bool, 4> exitSides(const dvec3& epipole, const Border& border) {
 dvec2 entryOf(const dvec3& epipole, const Border& border, const dvec2& exit) {
   const dvec2 d = directionAt(epipole, exit);
   // Backwards from the exit by a share t of d; the epipole is at t = 1 / |w|.
-  double t = std::abs(epipole.z) > 0 ? 1 / std::abs(epipole.z) : 1e300;
+  // A little before that: at a lamp itself every direction would have a limit of its own.
+  double t = std::abs(epipole.z) > 0 ? std::max(1 / std::abs(epipole.z) - EPIPOLE_GAP / glm::length(d), 0.0) : 1e300;
   for (int axis = 0; axis < 2; ++axis) {
     if (d[axis] > 0) t = std::min(t, (exit[axis] - border.low[axis]) / d[axis]);
     if (d[axis] < 0) t = std::min(t, (exit[axis] - border.high[axis]) / d[axis]);
@@ -78,11 +79,12 @@ struct CameraRays {
   dvec3 origin;
   glm::dmat4 cameraFromClip;
   bool orthographic;
+  dvec3 forward; // of an orthographic camera
   dvec2 size;
 
   explicit CameraRays(const Frame& frame)
       : origin(cameraOrigin(frame.camera)), orthographic(isOrthographic(toGlm(frame.camera.clipFromView))),
-        size(frame.width, frame.height) {
+        forward(-glm::transpose(toGlm(frame.camera.viewFromWorld))[2]), size(frame.width, frame.height) {
     const glm::dmat4 clip =
         depthFromClip(frame.camera.clipDepth) * toGlm(frame.camera.clipFromView) * toGlm(frame.camera.viewFromWorld);
     cameraFromClip = glm::inverse(glm::translate(clip, origin));
@@ -98,7 +100,8 @@ struct CameraRays {
     }
     const dvec4 other = cameraFromClip * dvec4(ndc, 0.25, 1);
     begin = middle / middle.w;
-    direction = dvec4(dvec3(middle) / middle.w - dvec3(other) / other.w, 0);
+    const dvec3 along = dvec3(middle) / middle.w - dvec3(other) / other.w;
+    direction = dvec4(glm::dot(along, forward) < 0 ? -along : along, 0); // with reversed depth z falls along the ray
   }
 };
 
@@ -108,8 +111,9 @@ struct Row {
 };
 
 // The line that all rays of a slice follow in a view's map: through the texel positions of one ray's begin and
-// direction, clipped to the map, oriented as the rays run.
-Row rowOf(const glm::dmat4& texelFromCamera, const dvec4& begin, const dvec4& direction, int width, int height) {
+// direction, clipped to the map, oriented as the rays run. With oneBegin they all begin there.
+Row rowOf(const glm::dmat4& texelFromCamera, const dvec4& begin, const dvec4& direction, bool oneBegin,
+          const dvec2& size, int step) {
   const dvec4 a = texelFromCamera * begin, b = texelFromCamera * direction;
   dvec2 along(b.x * a.w - a.x * b.w, b.y * a.w - a.y * b.w); // the sign of d(x / w), d(y / w)
   const double greater = std::max(std::abs(along.x), std::abs(along.y));
@@ -123,12 +127,11 @@ Row rowOf(const glm::dmat4& texelFromCamera, const dvec4& begin, const dvec4& di
   along /= greater;
   // A finite point of the line: the foot of the map's centre on it. line.xy . p + line.z = 0.
   const dvec3 line = glm::cross(dvec3(a.x, a.y, a.w), dvec3(b.x, b.y, b.w));
-  const dvec2 normal(line), centre(0.5 * width, 0.5 * height);
+  const dvec2 normal(line), centre(0.5 * size);
   const double square = glm::dot(normal, normal);
   if (!(square > 0)) return row;
   const dvec2 point = centre - normal * ((glm::dot(normal, centre) + line.z) / square);
   double low = -1e30, high = 1e30;
-  const dvec2 size(width, height);
   for (int axis = 0; axis < 2; ++axis) {
     if (along[axis] == 0) continue;
     const double t0 = -point[axis] / along[axis], t1 = (size[axis] - point[axis]) / along[axis];
@@ -136,15 +139,31 @@ Row rowOf(const glm::dmat4& texelFromCamera, const dvec4& begin, const dvec4& di
     high = std::min(high, std::max(t0, t1));
   }
   if (!(high > low)) return row; // the line misses the map
-  row.originStep = glm::vec4(point + low * along, along);
-  row.texels = static_cast<float>(std::min(std::ceil(high - low), static_cast<double>(std::max(width, height))));
+  if (oneBegin && a.w > 0) { // rays leave it forwards: whole steps behind it are never read, but for a step of rounding
+    const double eye = glm::dot(dvec2(a) / a.w - point, along) / glm::dot(along, along);
+    low += glm::clamp(std::floor((eye - low) / step) - 1, 0.0, std::ceil((high - low) / step) - 1) * step;
+  }
+  row.originStep = glm::vec4(point + low * along, along * static_cast<double>(step));
+  row.texels = static_cast<float>(std::ceil(std::min(high - low, std::max(size.x, size.y)) / step));
   return row;
+}
+
+// How rows hold depths: in 16 bits where depth is linear in the distance from the light, else as they are.
+glm::vec4 rowCodeOf(const blocks::LightBlock& light, std::size_t views) {
+  constexpr float kMost = 65535, kFar = kMost - 1; // the greatest code is a texel without a caster
+  for (std::size_t v = 0; v < views; ++v) {
+    const glm::mat4& m = light.texelFromCamera[v];
+    if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0) return glm::vec4(1, 0, 3e38F, 0);
+  }
+  const float near = light.viewDepth[0].x, far = light.viewDepth[0].y;
+  const float scale = kFar / kMost / (far - near);
+  return glm::vec4(scale, -near * scale, 1, kMost);
 }
 
 } // namespace
 
-SliceTable makeSlices(const Frame& frame, const Light& light, int slices, int samples, int shadowWidth,
-                      int shadowHeight) {
+SliceTable makeSlices(const Frame& frame, const Light& light, int shadowWidth, int shadowHeight) {
+  const int slices = frame.settings.slices, samples = frame.settings.samples;
   const Border border{dvec2(0.5), dvec2(frame.width, frame.height) - 0.5};
   const dvec3 epipole = epipoleOf(frame, light);
   const std::array<bool, 4> exits = exitSides(epipole, border);
@@ -172,19 +191,24 @@ SliceTable makeSlices(const Frame& frame, const Light& light, int slices, int sa
     const double length = glm::distance(entry, exit);
     table.texels[i] = glm::vec4(entry, exit);
     const double wanted = std::min(static_cast<double>(samples), std::ceil(length) + 1);
-    table.texels[count + i] = glm::vec4(wanted, length, 0, 0);
+    const dvec2 perPixel = (exit - entry) * ((wanted - 1) / std::max(length * length, 1e-12));
+    table.texels[count + i] = glm::vec4(perPixel, -glm::dot(perPixel, entry), wanted - 1);
+    table.regularSamples += static_cast<std::uint64_t>(wanted + 15) / 16;
     dvec4 begin, direction;
     rays.at(exit, begin, direction);
     for (std::size_t v = 0; v < views; ++v) {
-      const Row row = rowOf(glm::dmat4(lightMatrices.texelFromCamera[v]), begin, direction, shadowWidth, shadowHeight);
+      const Row row = rowOf(glm::dmat4(lightMatrices.texelFromCamera[v]), begin, direction, !rays.orthographic,
+                            dvec2(shadowWidth, shadowHeight), frame.settings.rowStep);
       table.texels[(2 + 2 * v) * count + i] = row.originStep;
       table.texels[(3 + 2 * v) * count + i] = glm::vec4(row.texels, 0, 0, 0);
+      table.longestRow = std::max(table.longestRow, static_cast<int>(row.texels));
     }
   }
   blocks::EpipolarBlock& block = table.block;
   block.epipole = glm::vec4(epipole, epipole.z < 0 ? -1 : 1);
   block.border = glm::vec4(border.low, border.high);
   block.sliceMap = glm::vec4(border.start(first), std::max(step, 1e-9), border.perimeter(), closed ? 1 : 0);
+  block.rowCode = rowCodeOf(lightMatrices, views);
   block.grid = glm::ivec4(table.slices, samples, 0, 0);
   return table;
 }

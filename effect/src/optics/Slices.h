@@ -4,6 +4,7 @@
 
 #include "SharedBlocks.h"
 
+#include <cstdint>
 #include <tyndall/tyndall.h>
 #include <vector>
 
@@ -12,12 +13,13 @@ namespace tyndall::optics {
 struct SliceTable {
   int slices = 0;
   int rows = 0;
-  std::vector<glm::vec4> texels; ///< slices x rows, see glsl/lib/slices.glsl
-  blocks::EpipolarBlock block{}; ///< epipole, border and sliceMap are filled in
+  std::vector<glm::vec4> texels;    ///< slices x rows, see glsl/lib/slices.glsl
+  std::uint64_t regularSamples = 0; ///< one in sixteen samples of each slice
+  int longestRow = 0;               ///< texels, over all slices and views
+  blocks::EpipolarBlock block{};    ///< epipole, border and sliceMap are filled in
 };
 
-/// At most `slices` slices of at most `samples` samples. shadowWidth, shadowHeight: texels, 0 without a shadow map.
-SliceTable makeSlices(const Frame& frame, const Light& light, int slices, int samples, int shadowWidth,
-                      int shadowHeight);
+/// Slices by the frame's settings. shadowWidth, shadowHeight: texels, 0 without a shadow map.
+SliceTable makeSlices(const Frame& frame, const Light& light, int shadowWidth, int shadowHeight);
 
 } // namespace tyndall::optics

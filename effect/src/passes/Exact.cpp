@@ -20,10 +20,12 @@ std::vector<Variant> allVariants() {
       Variant v;
       v.composite = composite;
       v.multisampled = multisampled;
-      v.monochrome = true;
-      all.push_back(v);
       for (const bool monochrome : {false, true}) {
         v.monochrome = monochrome;
+        v.lightKind = 3;
+        v.shadowViews = 0;
+        v.shadowArray = v.bilinear = v.glass = false;
+        all.push_back(v);
         for (v.lightKind = 0; v.lightKind < 3; ++v.lightKind) {
           v.shadowViews = 0;
           v.shadowArray = v.bilinear = v.glass = false;

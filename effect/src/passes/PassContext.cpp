@@ -14,11 +14,14 @@ void setBlend(const PassContext& context, Blend blend) {
   const gl::Functions& gl = context.gl;
   if (blend == Blend::Replace) {
     gl.Disable(gl::BLEND);
+    // Mesa refuses to draw into several targets while the function has a second source, though blending is off.
+    gl.BlendFuncSeparate(gl::ONE, gl::ZERO, gl::ONE, gl::ZERO);
     return;
   }
   gl.Enable(gl::BLEND);
   gl.BlendEquationSeparate(gl::FUNC_ADD, gl::FUNC_ADD);
-  gl.BlendFuncSeparate(gl::ONE, blend == Blend::Add ? gl::ONE : gl::SRC1_COLOR, gl::ZERO, gl::ONE);
+  const gl::Enum alpha = blend == Blend::AddAll ? gl::ONE : gl::ZERO;
+  gl.BlendFuncSeparate(gl::ONE, blend == Blend::DualSource ? gl::SRC1_COLOR : gl::ONE, alpha, gl::ONE);
 }
 
 bool drawFullScreen(const PassContext& context, const std::string& fragment, const gl::Definitions& definitions) {

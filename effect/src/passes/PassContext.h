@@ -15,7 +15,8 @@ struct PassContext {
 /// How a pass's colour outputs join what is in the target.
 enum class Blend {
   Replace,    ///< overwrite
-  Add,        ///< target + source 0
+  Add,        ///< target + source 0 (rgb); alpha stays
+  AddAll,     ///< target + source 0, alpha too
   DualSource, ///< target * source 1 + source 0 (rgb); alpha stays
 };
 

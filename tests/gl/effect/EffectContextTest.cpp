@@ -293,4 +293,22 @@ TEST_CASE("every shader variant compiles, and no frame needs another") {
     if (drawn.code != StatusCode::InvalidFrame) CHECK(drawn);
   });
   CHECK(effect.statistics().compiledPrograms == count);
+
+  // Debug views need no more than the frame without them.
+  for (const Technique technique : {Technique::Tree, Technique::Epipolar}) {
+    int withoutView = 0;
+    for (const View view : {View::Composite, View::Slices, View::Samples, View::Breaks, View::MarchSamples,
+                            View::FixupPixels, View::NodeVisits, View::Difference}) {
+      forEveryVariant(scene, [&](Frame frame) {
+        if (frame.output.inscatter == 0) return;
+        frame.settings.technique = technique;
+        frame.settings.view = view;
+        const Status drawn = effect.render(frame);
+        INFO(drawn.message);
+        if (drawn.code != StatusCode::InvalidFrame) CHECK(drawn);
+      });
+      if (view == View::Composite) withoutView = effect.statistics().compiledPrograms;
+      CHECK(effect.statistics().compiledPrograms == withoutView);
+    }
+  }
 }

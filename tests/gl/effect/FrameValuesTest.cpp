@@ -204,6 +204,33 @@ const std::vector<Breakage> kBreakages = {
      [](Frame& f) { setEnum(f.medium.constituents[0].phase, -1); },
      {"medium.constituents[0].phase is -1", "enumerators"}},
     {"technique", [](Frame& f) { setEnum(f.settings.technique, 99); }, {"settings.technique is 99", "enumerators"}},
+    {"view", [](Frame& f) { setEnum(f.settings.view, 10); }, {"settings.view is 10", "enumerators"}},
+    {"view below", [](Frame& f) { setEnum(f.settings.view, -1); }, {"settings.view is -1", "enumerators"}},
+    {"slices of exact",
+     [](Frame& f) { f.settings.view = View::Slices; },
+     {"settings.view is Slices", "technique Tree or Epipolar"}},
+    {"fix-up pixels of exact",
+     [](Frame& f) { f.settings.view = View::FixupPixels; },
+     {"settings.view is FixupPixels", "technique Tree or Epipolar"}},
+    {"samples of tree",
+     [](Frame& f) {
+       f.settings.technique = Technique::Tree;
+       f.settings.view = View::MarchSamples;
+     },
+     {"settings.view is MarchSamples", "technique Epipolar"}},
+    {"slices of a multisampled depth",
+     [](Frame& f) {
+       f.settings.technique = Technique::Epipolar;
+       f.depth.multisampled = true;
+       f.settings.view = View::NodeVisits;
+     },
+     {"settings.view is NodeVisits", "not multisampled"}},
+    {"view without colour",
+     [](Frame& f) {
+       f.colour = 0;
+       f.settings.view = View::Inscatter;
+     },
+     {"settings.view is Inscatter", "Frame::colour"}},
     {"filter", [](Frame& f) { setEnum(f.settings.shadowFilter, 2); }, {"settings.shadowFilter is 2", "enumerators"}},
 };
 

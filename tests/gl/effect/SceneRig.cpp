@@ -143,6 +143,7 @@ SceneRig::SceneRig(int width, int height, RigContext context) : distances(wallDi
   if (context == RigContext::Test) testContext();
   frame.width = width;
   frame.height = height;
+  frame.settings.technique = Technique::Exact;
   frame.camera.viewFromWorld = lookAt({0, 1, 6}, {0.1, 0.4, 0});
   frame.medium.constituents = {{{0.05F, 0.1F, 0.2F}, Phase::HenyeyGreenstein, 0.3F},
                                {{0.02F, 0.02F, 0.02F}, Phase::Rayleigh, 0}};

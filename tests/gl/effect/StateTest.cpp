@@ -316,6 +316,27 @@ TEST_CASE("GL state on return equals GL state on entry, every row of it poisoned
   CHECK(again.inscatter.rgb == expected.inscatter.rgb);
 }
 
+TEST_CASE("debug views leave a poisoned GL state alone") {
+  FullFrame full;
+  Frame frame = full.rig.frame;
+  frame.settings.technique = Technique::Epipolar;
+  for (int view = 1; view <= static_cast<int>(View::Difference); ++view) {
+    frame.settings.view = static_cast<View>(view);
+    const Poison poison;
+    const State before = captureState();
+    const Status status = tests::testEffect().render(frame);
+    const State after = captureState();
+    Poison::lift();
+    INFO(status.message);
+    CAPTURE(view);
+    CHECK(status);
+    for (const auto& [name, values] : before) {
+      INFO(name);
+      CHECK(values == after.at(name));
+    }
+  }
+}
+
 TEST_CASE("a poisoned state gives the same picture") {
   FullFrame full;
   const reference::ImageAnswer expected = full.rig.render();

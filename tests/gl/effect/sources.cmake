@@ -5,14 +5,23 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/ConventionTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/DriverFailureTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EffectContextTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/EpipolarInputTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/EpipolarSymmetryTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EpipolarTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/EpipolePositionTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ExactTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FakeContext.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameTexturesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameValuesTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/MemoryTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/NonFiniteTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/RefusalRig.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SceneRig.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/ShaftRig.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/SkipTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/StabilityTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/StateTest.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/SymmetryTest.cpp)
+  ${CMAKE_CURRENT_LIST_DIR}/SymmetryTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/TreeTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/TurningCameraTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/ViewTest.cpp)

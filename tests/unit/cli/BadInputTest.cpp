@@ -53,6 +53,7 @@ TEST_CASE("tyndall-render refuses wrong usage with exit code 2") {
   checkUsageError({""}, "SCENE");
   checkUsageError({"triangle.gltf", "--profile", "fast"}, "--profile fast");
   checkUsageError({"triangle.gltf", "--technique", "radial-blur"}, "--technique radial-blur");
+  checkUsageError({"triangle.gltf", "--view", "wireframe"}, "--view wireframe: must be one of composite, slices, ");
   checkUsageError({"triangle.gltf", "--filter", "cubic"}, "--filter cubic");
   checkUsageError({"triangle.gltf", "--context", "vulkan"}, "--context vulkan");
 }

@@ -124,6 +124,28 @@ TEST_CASE("with --supersample an EXR keeps every pixel and a PNG their mean") {
     CHECK(static_cast<unsigned char>(png[side + 2]) * 256 + static_cast<unsigned char>(png[side + 3]) == kSize);
 }
 
+TEST_CASE("--view replaces the composite, or says what it needs") {
+  const tests::ToolFolder folder;
+  folder.write("m.json", kMedium);
+  const Arguments sun = {"--medium", "m.json", "--sun", "0,0,-1,6,5,4"};
+  const auto run = [&](const std::string& technique, const std::string& view) {
+    Arguments all = viewWith({"--technique", technique, "--view", view, "--out", "v.exr", "--out", "v.png"});
+    all.insert(all.end(), sun.begin(), sun.end());
+    return folder.run(all);
+  };
+  for (const std::string output : {"inscatter", "transmittance"}) {
+    REQUIRE(run("epipolar", output).exitCode == 0);
+    const host::Image image = host::readExr(folder.path("v.exr"));
+    CHECK(*image.find("G") == *image.find(output + ".G"));
+  }
+  for (const std::string view :
+       {"slices", "samples", "breaks", "march-samples", "fixup-pixels", "node-visits", "difference", "composite"})
+    CHECK(run("epipolar", view).exitCode == 0);
+  const tests::ToolResult refused = run("exact", "slices");
+  CHECK(refused.exitCode == 1);
+  CHECK(refused.err.find("settings.view is Slices: needs slices") != std::string::npos);
+}
+
 TEST_CASE("a medium that does nothing leaves the passes skipped and the composite as it was") {
   const tests::ToolFolder folder;
   folder.write("m.json", R"({"constituents": [], "absorption": [0, 0, 0]})");

@@ -1,0 +1,134 @@
+#include "optics/LightVolume.h"
+
+#include "optics/Blocks.h"
+#include "optics/Matrices.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <vector>
+
+namespace tyndall::optics {
+
+namespace {
+
+using glm::dvec3;
+using glm::dvec4;
+
+// All camera rays: from four corners on without end. A perspective camera's rays begin at the eye, in front of its near
+// plane; an orthographic one's on the near plane.
+struct ViewVolume {
+  std::array<dvec3, 4> begin;     // relative to the camera's origin; the corners in turn
+  std::array<dvec3, 4> direction; // unit
+  bool orthographic;
+
+  explicit ViewVolume(const Camera& camera) : orthographic(isOrthographic(toGlm(camera.clipFromView))) {
+    const glm::dmat4 viewFromWorld = toGlm(camera.viewFromWorld);
+    const glm::dmat4 clip = depthFromClip(camera.clipDepth) * toGlm(camera.clipFromView) * viewFromWorld;
+    const glm::dmat4 worldFromClip = glm::inverse(clip);
+    const dvec3 origin = cameraOrigin(camera), forward = -dvec3(glm::transpose(viewFromWorld)[2]);
+    const double near = isReversed(clip, forward) ? 1 : 0; // read for orthographic cameras only
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double x = i == 1 || i == 2 ? 1 : -1, y = i >= 2 ? 1 : -1;
+      const auto pointAt = [&](double depth) {
+        const dvec4 p = worldFromClip * dvec4(x, y, depth, 1);
+        return dvec3(p) / p.w - origin;
+      };
+      begin[i] = orthographic ? pointAt(near) : dvec3(0);
+      direction[i] = glm::normalize(pointAt(0.5) - begin[i]);
+    }
+  }
+
+  // Outwards from the side through two corners that are neighbours.
+  dvec3 sideNormal(std::size_t corner) const {
+    const auto across = [&](std::size_t to) { return orthographic ? begin[to] - begin[corner] : direction[to]; };
+    const dvec3 normal = glm::cross(direction[corner], across((corner + 1) % 4));
+    return glm::dot(normal, across((corner + 2) % 4)) > 0 ? -normal : normal;
+  }
+
+  // The greatest dot(normal, x) over the volume.
+  double highest(const dvec3& normal) const {
+    constexpr double kRounding = 1e-12; // of a unit normal against a unit direction that it was made from
+    double most = -kInfinity;
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (glm::dot(normal, direction[i]) > kRounding) return kInfinity;
+      most = std::max(most, glm::dot(normal, begin[i]));
+    }
+    return most;
+  }
+};
+
+// What a light reaches: a ball, or the sector of one within an angle of an axis; without a range, without end.
+struct ReachedVolume {
+  dvec3 position; // relative to the camera's origin
+  dvec3 axis;     // unit
+  double angle;   // pi for a ball
+  double range;
+
+  ReachedVolume(const Light& light, const Camera& camera)
+      : position(toGlm(light.position) - cameraOrigin(camera)), axis(0, -1, 0), angle(glm::pi<double>()),
+        range(light.range) {
+    if (light.kind != LightKind::Spot) return;
+    axis = glm::normalize(toGlm(light.direction));
+    angle = light.outerConeAngle;
+  }
+
+  // The least dot(normal, x) over the volume. Of all directions within `angle` of the axis one comes as close to
+  // -normal as the angle between them less `angle`; the light itself counts too.
+  double lowest(const dvec3& normal) const {
+    constexpr double kRounding = 1e-5; // radians that shaders may see a cone wider, in float
+    const double between = std::acos(glm::clamp(-glm::dot(normal, axis), -1.0, 1.0));
+    const double least = std::max(between - angle - kRounding, 0.0);
+    const double towards = least < glm::half_pi<double>() ? range * std::cos(least) : 0.0;
+    return glm::dot(normal, position) - towards;
+  }
+};
+
+// Normals of planes that may lie between the two: across to the nearest point on a side, an edge or the corner of the
+// view, and planes that touch the cone. Any plane that does separate them proves it.
+std::vector<dvec3> candidates(const ViewVolume& view, const ReachedVolume& light) {
+  std::vector<dvec3> normals;
+  dvec3 along(0);
+  for (const dvec3& direction : view.direction)
+    along += direction;
+  normals.push_back(-along);
+  for (std::size_t i = 0; i < 4; ++i) {
+    normals.push_back(view.sideNormal(i));
+    const dvec3 away = light.position - view.begin[i];
+    normals.push_back(away);
+    normals.push_back(away - glm::dot(away, view.direction[i]) * view.direction[i]);
+  }
+  if (light.angle < glm::pi<double>()) {
+    // The axis, and turned from it towards the planes as far as the cone allows: then the plane touches it.
+    const double turn = std::max(glm::half_pi<double>() - light.angle - 1e-4, 0.0);
+    const std::vector<dvec3> planes = normals;
+    normals.push_back(light.axis);
+    for (const dvec3& plane : planes) {
+      const dvec3 across = plane - glm::dot(plane, light.axis) * light.axis;
+      if (const double size = glm::length(across); size > 0)
+        normals.push_back(std::cos(turn) * light.axis + std::sin(turn) / size * across);
+    }
+  }
+  return normals;
+}
+
+} // namespace
+
+bool isOutOfView(const Light& light, const Camera& camera) {
+  if (light.kind == LightKind::Directional) return false;
+  const ReachedVolume reached(light, camera);
+  if (reached.angle > glm::half_pi<double>() && !std::isfinite(reached.range)) return false;
+  const ViewVolume view(camera);
+  // Shaders find the end of a light's reach in float, from the eye.
+  const double margin = 1e-5 * (glm::length(reached.position) + glm::length(view.begin[0]));
+  for (const dvec3& candidate : candidates(view, reached)) {
+    const double size = glm::length(candidate);
+    if (!(size > 0)) continue;
+    const dvec3 normal = candidate / size;
+    if (reached.lowest(normal) - view.highest(normal) > margin) return true;
+  }
+  return false;
+}
+
+} // namespace tyndall::optics

@@ -1,0 +1,35 @@
+#include "passes/MarchExtra.h"
+
+namespace tyndall::passes::march_extra {
+
+namespace {
+
+Status attachTargets(SliceContext& context, Out& out) {
+  const int slices = context.slices.count, height = context.slices.samples / 4;
+  if (Status s = context.target(Target::Extra, slices, height, out.extra); !s) return s;
+  if (!context.isColoured()) return {};
+  if (Status s = context.attachMore(1, Target::ExtraGreen, slices, height, out.extraGreen); !s) return s;
+  return context.attachMore(2, Target::ExtraBlue, slices, height, out.extraBlue);
+}
+
+} // namespace
+
+Status run(SliceContext& context, const In& in, Out& out) {
+  context.selectView(in.view);
+  context.bindSlices();
+  context.bind(gl::Unit::SampleEnds, in.sampleEnds);
+  context.bind(gl::Unit::Marks, in.marks);
+  context.bind(gl::Unit::ExtraOffsets, in.offsets);
+  rows::bind(context, in.rows);
+  setBlend(context.pass, in.view == 0 ? Blend::Replace : Blend::AddAll);
+  if (Status s = attachTargets(context, out); !s) return s;
+  const int instances = (context.slices.count + 63) / 64;
+  const bool ok = context.recorder.runCounted(context.inputs.name + " march extra", [&] {
+    return drawStrips(context.pass, "passes/strips.vert", instances, "passes/marchExtra.frag", context.definitions);
+  });
+  for (gl::Enum i = 1; context.isColoured() && i < 3; ++i) // other passes draw into one target of another size
+    context.gl.FramebufferTexture2D(gl::DRAW_FRAMEBUFFER, gl::COLOR_ATTACHMENT0 + i, gl::TEXTURE_2D, 0, 0);
+  return ok ? Status{} : context.shaderError();
+}
+
+} // namespace tyndall::passes::march_extra

@@ -1,0 +1,49 @@
+#include "passes/Rows.h"
+
+namespace tyndall::passes::rows {
+
+namespace {
+
+int treeNodes(int texels, int levels) {
+  int nodes = 0;
+  for (int level = 2; level <= levels; ++level)
+    nodes += texels >> (2 * level);
+  return nodes;
+}
+
+// Makes a row texture of full size the target; only this frame's rows are drawn.
+Status target(SliceContext& context, Target which, int height, int drawn, gl::Uint& texture) {
+  if (Status s = context.target(which, context.slices.count, height, texture); !s) return s;
+  context.gl.Viewport(0, 0, context.slices.count, drawn);
+  return {};
+}
+
+} // namespace
+
+Status run(SliceContext& context, const In& in, Out& out) {
+  if (context.views() == 0) return {};
+  const int room = context.slices.rowTexels, drawn = context.slices.block.grid.z, levels = context.slices.block.grid.w;
+  gl::Uint nodes = 0;
+  context.selectView(in.view);
+  context.bindSlices();
+  context.bindMaps();
+  setBlend(context.pass, Blend::Replace);
+  if (Status s = target(context, Target::RowDepths, room / 4, drawn / 4, out.depths); !s) return s;
+  if (Status s = context.draw("rows", "passes/rowDepths.frag", context.definitions); !s) return s;
+  context.bind(gl::Unit::RowDepths, out.depths);
+  if (Status s = target(context, Target::RowNodes, room / 16, drawn / 16, nodes); !s) return s;
+  if (Status s = context.draw("nodes", "passes/rowNodes.frag", context.definitions); !s) return s;
+  context.bind(gl::Unit::RowNodes, nodes);
+  const int roomNodes = treeNodes(room, levels), drawnNodes = treeNodes(drawn, levels);
+  if (Status s = target(context, Target::RowTree, roomNodes, drawnNodes, out.tree); !s) return s;
+  return context.draw("tree", "passes/rowTree.frag", context.definitions);
+}
+
+void bind(const SliceContext& context, const Out& rows) {
+  context.bindMaps();
+  if (rows.tree == 0) return;
+  context.bind(gl::Unit::RowDepths, rows.depths);
+  context.bind(gl::Unit::RowTree, rows.tree);
+}
+
+} // namespace tyndall::passes::rows

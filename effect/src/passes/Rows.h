@@ -1,0 +1,23 @@
+// Rows: the shadow map of one view along every slice, and a min/max tree over each (Chen 2011, 3.2 and 3.3;
+// glsl/passes/rowDepths, rowNodes, rowTree).
+#pragma once
+
+#include "passes/SliceContext.h"
+
+namespace tyndall::passes::rows {
+
+struct In {
+  int view = 0;
+};
+
+struct Out {
+  gl::Uint depths = 0; ///< 0: the light has no shadow map
+  gl::Uint tree = 0;
+};
+
+Status run(SliceContext& context, const In& in, Out& out);
+
+/// For the passes that walk along rows; also binds the maps, which filtered and tinted rows look up.
+void bind(const SliceContext& context, const Out& rows);
+
+} // namespace tyndall::passes::rows

@@ -1,0 +1,18 @@
+#include "passes/Samples.h"
+
+namespace tyndall::passes::samples {
+
+Status run(SliceContext& context, Out& out) {
+  const slices::Out& slices = context.slices;
+  context.selectView(0);
+  context.bindSceneDepth();
+  context.bindSlices();
+  setBlend(context.pass, Blend::Replace);
+  if (Status s = context.target(Target::SampleEnds, slices.count, slices.samples, out.ends); !s) return s;
+  if (Status s = context.draw("sample ends", "passes/sampleEnds.frag", context.definitions); !s) return s;
+  context.bind(gl::Unit::SampleEnds, out.ends);
+  if (Status s = context.target(Target::Marks, slices.count, slices.samples / 64, out.marks); !s) return s;
+  return context.draw("marks", "passes/marks.frag", context.definitions);
+}
+
+} // namespace tyndall::passes::samples

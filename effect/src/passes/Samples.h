@@ -1,0 +1,16 @@
+// Samples: the length of the camera ray at every sample of every slice, and which of them are marched because of depth
+// breaks (Yusov 2013, "Sample classification"; glsl/passes/sampleEnds, marks).
+#pragma once
+
+#include "passes/SliceContext.h"
+
+namespace tyndall::passes::samples {
+
+struct Out {
+  gl::Uint ends = 0;
+  gl::Uint marks = 0;
+};
+
+Status run(SliceContext& context, Out& out);
+
+} // namespace tyndall::passes::samples

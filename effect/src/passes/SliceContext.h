@@ -1,0 +1,72 @@
+// What the steps of the epipolar pipeline share: one light's inputs, the geometry of its slices, and how a step draws.
+#pragma once
+
+#include "CheckFrame.h"
+#include "PassRecorder.h"
+#include "Targets.h"
+#include "passes/Exact.h"
+#include "passes/Slices.h"
+
+#include <functional>
+
+namespace tyndall::passes {
+
+/// The light that goes through the pipeline, and where it goes to.
+struct SliceInputs {
+  const Frame* frame = nullptr;
+  const Light* light = nullptr;
+  FrameTextures::Shadow map;
+  exact::Variant variant; ///< of this light
+  Blend blend = Blend::Replace;
+  std::string name; ///< of the light, for the statistics
+  /// Binds the framebuffer that receives the light, without its transmittance for draws that only add.
+  std::function<Status(bool withStencil, bool withTransmittance)> attachDestination;
+  /// Binds the framebuffer of the debug view of slices; empty unless this light is to be shown.
+  std::function<Status(bool withStencil)> attachView;
+  std::function<void(int binding, const void* data, std::size_t size)> upload;
+};
+
+/// Objects that outlive a frame.
+struct SliceObjects {
+  gl::Framebuffer scratch; ///< for the effect's own targets
+  gl::Query fixup;         ///< samples that unwarp served
+};
+
+struct SliceContext {
+  const PassContext& pass;
+  Targets& targets;
+  PassRecorder& recorder;
+  const SliceObjects& objects;
+  const SliceInputs& inputs;
+  const gl::Functions& gl = pass.gl;
+  gl::Definitions definitions = exact::definitionsOf(inputs.variant);
+  slices::Out slices = {};
+
+  /// True if the epipolar textures hold three channels.
+  bool isColoured() const { return !inputs.variant.monochrome || inputs.variant.glass; }
+  /// Shadow views of the light; 0 without a shadow map.
+  int views() const { return inputs.variant.shadowViews == 0 ? 0 : slices.block.march.w; }
+  /// Draws that march it: one a view, and at least one, which brings the light that is outside all views.
+  int draws() const { return views() > 0 ? views() : 1; }
+
+  /// Uploads the block for a draw through one view.
+  void selectView(int view);
+
+  void bind(gl::Unit unit, gl::Uint texture) const { bindTexture(pass, unit, gl::TEXTURE_2D, texture); }
+  void bindSlices() const { bind(gl::Unit::SliceTable, slices.table); }
+  void bindSceneDepth() const { bind(gl::Unit::SceneDepth, inputs.frame->depth.texture); }
+  /// The shadow map and glass map of the light, if it has them.
+  void bindMaps() const;
+
+  /// Makes one of our textures the target of the next draws; `texture` receives its name.
+  Status target(Target which, int width, int height, gl::Uint& texture);
+  /// One more colour target of the next draws, of the same size as the first.
+  Status attachMore(gl::Enum index, Target which, int width, int height, gl::Uint& texture);
+
+  /// Draws the full-screen triangle as a pass of the light.
+  Status draw(const std::string& name, const std::string& fragment, const gl::Definitions& with);
+
+  Status shaderError() const { return {StatusCode::ShaderError, "a shader did not build: " + pass.programs.error()}; }
+};
+
+} // namespace tyndall::passes

@@ -1,0 +1,52 @@
+#include "passes/Slices.h"
+
+#include "optics/Slices.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall::passes::slices {
+
+namespace {
+
+// Texels of a row and levels of its tree: the coarsest level keeps at least one node of each row, and four if it can.
+// Textures have room for the longest row that the map allows; drawn are as many texels as this frame's longest has.
+int chooseRow(const In& in, int longestRow, blocks::EpipolarBlock& block) {
+  const int step = in.frame->settings.rowStep;
+  const int texels = (std::max({in.map.width, in.map.height, 1}) + step - 1) / step;
+  int top = 2;
+  while ((texels >> (2 * (top + 1))) >= 4)
+    ++top;
+  const int unit = 1 << (2 * top);
+  const int room = (texels + unit - 1) / unit * unit;
+  block.grid.z = std::clamp((longestRow + unit - 1) / unit * unit, unit, room);
+  block.grid.w = top;
+  block.march.w = in.light->shadow.texture ? static_cast<int>(in.light->shadow.views.size()) : 0;
+  return room;
+}
+
+} // namespace
+
+Status outOfMemory() { return {StatusCode::OutOfMemory, "GL could not allocate an epipolar texture"}; }
+
+Status run(const PassContext& context, Targets& targets, const In& in, Out& out) {
+  const Settings& settings = in.frame->settings;
+  const optics::SliceTable table = optics::makeSlices(*in.frame, *in.light, in.map.width, in.map.height);
+  out.count = table.slices;
+  out.samples = settings.samples;
+  out.regularSamples = table.regularSamples;
+  out.block = table.block;
+  out.block.thresholds = glm::vec4(settings.breakThreshold, settings.leastWeight, settings.bendThreshold,
+                                   std::log2(1 + settings.breakThreshold));
+  out.rowTexels = chooseRow(in, table.longestRow, out.block);
+
+  out.table = targets.get(Target::SliceTable, table.slices, table.rows);
+  if (!out.table) return outOfMemory();
+  const gl::Functions& gl = context.gl;
+  gl.ActiveTexture(gl::TEXTURE0 + static_cast<gl::Enum>(gl::Unit::Upload));
+  gl.BindTexture(gl::TEXTURE_2D, out.table);
+  gl.TexSubImage2D(gl::TEXTURE_2D, 0, 0, 0, table.slices, table.rows, gl::RGBA, gl::FLOAT, table.texels.data());
+  return {};
+}
+
+} // namespace tyndall::passes::slices

@@ -1,0 +1,48 @@
+// The light of a segment along its slice's row, nearest texels: visibility is 0 or 1, and a texel's own depth decides.
+
+// Looks at the walk's texel and those behind it in its group of four for the first change of visibility; `at` is where.
+bool changeInGroup(RowLine line, inout RowWalk walk, int slice, bool lit, inout float at) {
+  VISIT
+  vec4 depths = texelFetch(rowDepths, ivec2(slice, walk.index >> 2), 0);
+  int first = walk.index & ~3;
+  bool changed = false;
+  for (int k = 0; k < 4; ++k) {
+    float u = rowEnd(line, walk, first + k + 1), end = rowDepth(line, u);
+    bool litIn = walk.depth <= depths[k], litOut = end <= depths[k];
+    bool here = !changed && first + k == walk.index && walk.index <= line.last;
+    changed = changed || (here && (litIn != lit || litOut != lit));
+    // A change at the texel's begin leaves the walk there, to be looked at again in the new state.
+    if (here && litIn != lit) at = walk.u;
+    if (here && litIn == lit) {
+      if (changed) at = clamp((depths[k] - line.depth) / line.slope, walk.u, u);
+      walk = RowWalk(first + k + 1, u, end);
+    }
+  }
+  return changed;
+}
+
+// The same integral as segmentLight, over the slice's row. The inner loop finds the next lit span.
+Light rowLight(Airlight light, ViewSegment segment, int slice) {
+  RowLine line;
+  RowWalk walk;
+  startRow(segment, slice, line, walk);
+  Light sum = Light(0.0);
+  bool lit = false, done = false;
+  float from = 0.0;
+  while (!done) {
+    vec2 span = vec2(0.0);
+    while (!done && span.y == 0.0) {
+      float found = walkNodes(line, walk, slice, lit ? 1.0 : 0.0), at = walk.u;
+      done = walk.index > line.last;
+      bool changed = !done && found != kMixed;
+      if (!done && !changed) changed = changeInGroup(line, walk, slice, lit, at);
+      if (lit && (changed || done)) span = vec2(from, done ? 1.0 : at);
+      if (changed) {
+        lit = !lit;
+        from = at;
+      }
+    }
+    sum += Light(airlight(light, distanceAt(segment, span.x), distanceAt(segment, span.y)));
+  }
+  return sum;
+}

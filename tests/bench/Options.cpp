@@ -1,0 +1,250 @@
+#include "Options.h"
+
+#include "render/SceneAnswers.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <scene/Error.h>
+
+namespace bench {
+
+namespace {
+
+constexpr int kLeastRuns = 5;
+constexpr int kMostRuns = 1000;
+constexpr const char* kAllFolder = "bench-report";
+
+/// The options as typed; lists are separated by commas.
+struct Typed {
+  std::string scenes, techniques, sizes, shadowSizes, lights, densities, contexts, references, runs, out, cache;
+  bool quick = false, all = false, plots = false, scaling = false;
+};
+
+[[noreturn]] void fail(const std::string& option, const std::string& value, const std::string& rule) {
+  throw UsageError(fmt::format("{} {}: {}", option, value, rule));
+}
+
+std::vector<std::string> splitList(const std::string& option, const std::string& value) {
+  std::vector<std::string> parts(1);
+  for (const char c : value)
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].empty()) fail(option, "\"" + value + "\"", "must be a list separated by single commas");
+    if (std::find(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(i), parts[i]) !=
+        parts.begin() + static_cast<std::ptrdiff_t>(i))
+      fail(option, value, "names " + parts[i] + " twice");
+  }
+  return parts;
+}
+
+template <class Number>
+bool parseWhole(const std::string& text, Number& number) {
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && rest == end;
+}
+
+std::vector<int> parseInts(const std::string& option, const std::string& value, int low, int high) {
+  std::vector<int> numbers;
+  for (const std::string& part : splitList(option, value)) {
+    int number = 0;
+    if (!parseWhole(part, number) || number < low || number > high)
+      fail(option, part, fmt::format("must be whole numbers from {} to {}", low, high));
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+std::vector<double> parseDensities(const std::string& value) {
+  std::vector<double> numbers;
+  for (const std::string& part : splitList("--densities", value)) {
+    double number = 0;
+    if (!parseWhole(part, number) || !(number > 0 && number <= 1e6))
+      fail("--densities", part, "must be numbers above 0, at most 1e6");
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+std::vector<std::pair<int, int>> parseSizes(const std::string& value) {
+  std::vector<std::pair<int, int>> sizes;
+  for (const std::string& part : splitList("--sizes", value)) {
+    const std::size_t x = part.find('x');
+    int width = 0, height = 0;
+    const bool valid = x != std::string::npos && parseWhole(part.substr(0, x), width) &&
+                       parseWhole(part.substr(x + 1), height) && std::min(width, height) >= 16 &&
+                       std::max(width, height) <= tyndall::kMaxImageSize;
+    if (!valid) fail("--sizes", part, fmt::format("must be WIDTHxHEIGHT, each from 16 to {}", tyndall::kMaxImageSize));
+    sizes.emplace_back(width, height);
+  }
+  return sizes;
+}
+
+std::vector<std::string> parseScenes(const std::string& value) {
+  const std::vector<std::string>& known = tests::sampleScenes();
+  if (value == "all") return known;
+  std::vector<std::string> names = splitList("--scenes", value);
+  for (const std::string& name : names)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      fail("--scenes", name, fmt::format("must be all or of {}", fmt::join(known, ", ")));
+  return names;
+}
+
+std::vector<Technique> parseTechniques(const std::string& value) {
+  std::vector<Technique> techniques;
+  for (const std::string& name : value == "all" ? allTechniques() : splitList("--techniques", value))
+    try {
+      techniques.push_back(parseTechnique(name));
+    } catch (const std::invalid_argument& error) {
+      throw UsageError(std::string("--techniques ") + error.what());
+    }
+  return techniques;
+}
+
+std::vector<host::ContextKind> parseContexts(const std::string& value) {
+  std::vector<host::ContextKind> kinds;
+  for (const std::string& name : splitList("--contexts", value))
+    try {
+      kinds.push_back(host::parseContextKind(name));
+    } catch (const host::Error&) {
+      fail("--contexts", name, "must be osmesa, egl or glfw");
+    }
+  return kinds;
+}
+
+void requireWritableFolder(const std::string& option, const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder)) fail(option, folder.string(), "must be a folder that exists");
+  const std::filesystem::path probe = folder / ".tyndall-bench-probe";
+  const bool writable = std::ofstream(probe).good();
+  std::error_code ignored;
+  std::filesystem::remove(probe, ignored);
+  if (!writable) fail(option, folder.string(), "must be a folder that can be written to");
+}
+
+void readReferences(const Typed& typed, Options& options) {
+  if (typed.references.empty()) return;
+  for (const std::string& name : splitList("--references", typed.references)) {
+    if (name != "map" && name != "scene") fail("--references", name, "must be of map, scene");
+    (name == "map" ? options.mapExact : options.sceneExact) = true;
+  }
+}
+
+void readOutputs(const Typed& typed, Options& options) {
+  options.plots = typed.plots || typed.all;
+  if (!typed.out.empty()) {
+    requireWritableFolder("--out", typed.out);
+    options.out = typed.out;
+  } else if (typed.all) {
+    std::error_code ignored;
+    std::filesystem::create_directory(kAllFolder, ignored);
+    requireWritableFolder("--out", kAllFolder);
+    options.out = kAllFolder;
+  }
+  if (options.plots && options.out.empty()) fail("--plots", "", "needs --out");
+  if (!typed.cache.empty()) {
+    requireWritableFolder("--cache", typed.cache);
+    options.cache = typed.cache;
+  } else if (!options.out.empty()) {
+    options.cache = options.out / "references";
+  }
+}
+
+/// Small enough to end within a minute on one core, and a bit of everything.
+void applyQuick(Typed& typed) {
+  typed.scenes = "nave,stage";
+  typed.techniques = "exact,high,performance,fixed:16,fixed:64,half:16,half:64,froxels:64,epipolar-march:128,tree:128,"
+                     "pyramid,volumes:128,incremental:128";
+  typed.sizes = "160x90";
+  typed.shadowSizes = "256";
+}
+
+void applyAll(Typed& typed) {
+  typed.scenes = "all";
+  typed.techniques = "all";
+  typed.references = "map,scene";
+  typed.scaling = true;
+}
+
+Options fromTyped(Typed typed) {
+  if (typed.quick && typed.all) fail("--quick", "", "cannot go with --all");
+  if (typed.quick) applyQuick(typed);
+  if (typed.all) applyAll(typed);
+  Options options;
+  Request request;
+  request.scenes = parseScenes(typed.scenes);
+  request.techniques = parseTechniques(typed.techniques);
+  request.sizes = parseSizes(typed.sizes);
+  request.shadowSizes = parseInts("--shadow-sizes", typed.shadowSizes, 16, tyndall::kMaxImageSize);
+  request.lights =
+      typed.lights.empty() ? std::vector<int>{0} : parseInts("--lights", typed.lights, 1, tyndall::kMaxLights);
+  request.densities = parseDensities(typed.densities);
+  request.contexts = parseContexts(typed.contexts);
+  options.setups = planCurves(request);
+  if (typed.scaling)
+    for (Setup& setup : planScaling())
+      options.setups.push_back(std::move(setup));
+  const std::vector<int> runs = parseInts("--runs", typed.runs, kLeastRuns, kMostRuns);
+  if (runs.size() != 1) fail("--runs", typed.runs, "must be one number");
+  options.runs = runs.front();
+  readReferences(typed, options);
+  readOutputs(typed, options);
+  return options;
+}
+
+void addOptions(CLI::App& app, Typed& typed) {
+  app.add_option("--scenes", typed.scenes, "sample scenes, or all (default nave)")->type_name("LIST");
+  app.add_option("--techniques", typed.techniques, "see below, or all (default)")->type_name("LIST");
+  app.add_option("--sizes", typed.sizes, "of the image (default 1280x720)")->type_name("LIST");
+  app.add_option("--shadow-sizes", typed.shadowSizes, "texels per side (default 4096)")->type_name("LIST");
+  app.add_option("--lights", typed.lights, "how many of the scene's lights, 1 to 16 (default: all)")->type_name("LIST");
+  app.add_option("--densities", typed.densities, "factors on the medium's density (default 1)")->type_name("LIST");
+  app.add_option("--contexts", typed.contexts, "osmesa (default), egl, glfw")->type_name("LIST");
+  app.add_option("--references", typed.references, "judge against these as well as exact: map, scene")
+      ->type_name("LIST");
+  app.add_option("--runs", typed.runs, "timed runs of each technique, at least 5 (default 5)")->type_name("N");
+  app.add_option("--out", typed.out, "a folder for bench.csv, bench.json and plots")->type_name("FOLDER");
+  app.add_option("--cache", typed.cache, "a folder for slow references (default: references/ in --out)")
+      ->type_name("FOLDER");
+  app.add_flag("--scaling", typed.scaling, "the scaling series, too");
+  app.add_flag("--plots", typed.plots, "draw them (needs python3 with matplotlib)");
+  app.add_flag("--quick", typed.quick, "small pictures of two scenes, within a minute; overrides the lists");
+  app.add_flag("--all", typed.all, "the whole report: every scene, reference and series, with plots");
+}
+
+} // namespace
+
+Options parseOptions(int argc, const char* const* argv) {
+  Typed typed;
+  typed.scenes = "nave";
+  typed.techniques = "all";
+  typed.sizes = "1280x720";
+  typed.shadowSizes = "4096";
+  typed.densities = "1";
+  typed.contexts = "osmesa";
+  typed.runs = "5";
+  CLI::App app("Measures Tyndall's run time against its error, beside what people use today.", "tyndall-bench");
+  app.footer("\nTechniques\n" + techniqueHelp() +
+             "\nExit status\n  0: done; 1: a case failed, or Ctrl-C ended it early; 2: wrong usage.");
+  addOptions(app, typed);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    throw Answer{app.help()};
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what());
+  }
+  // An option given as "" must not pass for one left out.
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& value : option->results())
+      if (value.empty()) fail(option->get_name(), "\"\"", "must not be empty");
+  return fromTyped(typed);
+}
+
+} // namespace bench

@@ -1,0 +1,30 @@
+// What one case measured.
+#pragma once
+
+#include "Plan.h"
+#include "reference/Metrics.h"
+
+#include <map>
+
+namespace bench {
+
+struct Result {
+  Setup setup; ///< without its techniques
+  Technique technique;
+  std::string driver;
+  std::string skipped;              ///< why the technique does not take the scene; empty if it ran
+  std::string failed;               ///< what went wrong; empty if nothing did
+  std::vector<double> milliseconds; ///< of each timed run, in order
+  std::vector<tyndall::PassStatistics> passes;
+  std::uint64_t bytes = 0;                               ///< GL memory of the technique
+  std::uint64_t peakMemory = 0;                          ///< of the process while the setup ran, bytes
+  std::map<std::string, reference::ErrorMetrics> errors; ///< against "exact", "map", "scene"
+
+  bool ok() const { return skipped.empty() && failed.empty() && !milliseconds.empty(); }
+  double median() const;
+  double least() const;
+  double most() const;
+  double rRmse() const; ///< against exact; infinite if not known
+};
+
+} // namespace bench

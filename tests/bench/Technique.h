@@ -1,0 +1,48 @@
+// What the benchmark compares, by the names that its command line takes.
+#pragma once
+
+#include "baselines/Baseline.h"
+
+#include <string>
+#include <tyndall/tyndall.h>
+#include <vector>
+
+namespace bench {
+
+/// Who a technique belongs to: the effect under test, what engines ship today, or what papers have.
+enum class Group { Exact, Ours, Shipping, Research };
+
+struct Technique {
+  std::string name;            ///< as typed, e.g. "fixed:64"
+  std::string family;          ///< what lies on one curve, e.g. "fixed"
+  std::vector<int> parameters; ///< e.g. {64}
+  Group group = Group::Shipping;
+};
+
+const char* nameOf(Group group);
+
+/// Throws std::invalid_argument with the rule that the name breaks.
+Technique parseTechnique(const std::string& name);
+
+/// The technique names that --techniques explains, one line each.
+std::string techniqueHelp();
+
+/// Every technique at every quality that the report shows.
+std::vector<std::string> allTechniques();
+
+/// Renders frames by one technique.
+class Runner {
+public:
+  virtual ~Runner() = default;
+  virtual std::string reasonAgainst(const tyndall::Frame& frame) const = 0;
+  /// Throws host::Error.
+  virtual void render(const tyndall::Frame& frame) = 0;
+  /// Renders with each pass timed.
+  virtual std::vector<tyndall::PassStatistics> timedPasses(const tyndall::Frame& frame) = 0;
+  virtual std::uint64_t bytes() = 0;
+};
+
+/// Needs a current context, whose GL functions the loader resolves.
+std::unique_ptr<Runner> makeRunner(const Technique& technique, tyndall::GlLoader loader, bool software);
+
+} // namespace bench

@@ -1,0 +1,149 @@
+// tyndall-bench as a user meets it: one clear line for each wrong input, and references that survive a damaged cache.
+#include "ReferenceCache.h"
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ToolResult {
+  int exitCode = -1;
+  std::string output;
+};
+
+ToolResult runTool(const std::string& arguments) {
+  const std::string command =
+      "env -u DISPLAY -u WAYLAND_DISPLAY " + std::string(TYNDALL_BIN_DIR) + "/tyndall-bench " + arguments + " 2>&1";
+  ToolResult result;
+  std::FILE* pipe = popen(command.c_str(), "r"); // NOLINT(cert-env33-c): fixed commands
+  REQUIRE(pipe);
+  std::array<char, 4096> buffer{};
+  while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe))
+    result.output += buffer.data();
+  result.exitCode = WEXITSTATUS(pclose(pipe));
+  return result;
+}
+
+class Folder {
+public:
+  Folder() : path_(fs::temp_directory_path() / ("tyndall-bench-" + std::to_string(getpid()))) {
+    fs::remove_all(path_);
+    fs::create_directories(path_);
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::permissions(path_, fs::perms::owner_all, ignored);
+    fs::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  const fs::path& path() const { return path_; }
+
+private:
+  fs::path path_;
+};
+
+} // namespace
+
+TEST_CASE("wrong usage is one line that names the option, exit code 2") {
+  const std::array<std::array<const char*, 2>, 18> cases = {{
+      {"--scenes cathedral", "--scenes cathedral: must be all or of nave"},
+      {"--scenes nave,,stage", "--scenes \"nave,,stage\": must be a list separated by single commas"},
+      {"--scenes nave,nave", "--scenes nave,nave: names nave twice"},
+      {"--techniques magic", "--techniques \"magic\": must be one of exact, high"},
+      {"--techniques fixed:many", "--techniques \"fixed:many\": what follows fixed: must be whole numbers"},
+      {"--techniques fixed", "--techniques \"fixed\": fixed needs"},
+      {"--sizes 320", "--sizes 320: must be WIDTHxHEIGHT"},
+      {"--sizes 0x10", "--sizes 0x10: must be WIDTHxHEIGHT"},
+      {"--shadow-sizes 1e3", "--shadow-sizes 1e3: must be whole numbers from 16"},
+      {"--lights 17", "--lights 17: must be whole numbers from 1 to 16"},
+      {"--densities 0", "--densities 0: must be numbers above 0"},
+      {"--densities nan", "--densities nan: must be numbers above 0"},
+      {"--contexts vulkan", "--contexts vulkan: must be osmesa, egl or glfw"},
+      {"--references truth", "--references truth: must be of map, scene"},
+      {"--runs 4", "--runs 4: must be whole numbers from 5"},
+      {"--out /no/such/folder", "--out /no/such/folder: must be a folder that exists"},
+      {"--quick --all", "--quick : cannot go with --all"},
+      {"--plots", "--plots : needs --out"},
+  }};
+  for (const auto& [arguments, message] : cases) {
+    const ToolResult result = runTool(arguments);
+    INFO(arguments << " -> " << result.output);
+    CHECK(result.exitCode == 2);
+    CHECK(result.output.find(message) != std::string::npos);
+    CHECK(std::count(result.output.begin(), result.output.end(), '\n') == 1);
+  }
+}
+
+TEST_CASE("a read-only output folder is refused") {
+  if (geteuid() == 0) {
+    WARN("skipped: root may write anywhere");
+    return;
+  }
+  const Folder folder;
+  fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
+  const ToolResult result = runTool("--out " + folder.path().string());
+  CHECK(result.exitCode == 2);
+  CHECK(result.output.find("must be a folder that can be written to") != std::string::npos);
+}
+
+TEST_CASE("a case that fails is reported and the rest go on") {
+  const Folder folder;
+  // A window needs a display.
+  const ToolResult result =
+      runTool("--sizes 32x32 --shadow-sizes 64 --techniques exact,fixed:16 --contexts glfw,osmesa --out " +
+              folder.path().string());
+  INFO(result.output);
+  CHECK(result.exitCode == 1);
+  CHECK(result.output.find("FAILED") != std::string::npos);
+  CHECK(result.output.find("llvmpipe") != std::string::npos);
+  CHECK(fs::exists(folder.path() / "bench.csv"));
+  CHECK(fs::exists(folder.path() / "bench.json"));
+}
+
+TEST_CASE("a reference is kept, and made anew when its file is damaged or of another version") {
+  const Folder folder;
+  std::vector<std::string> said;
+  const bench::ReferenceCache cache(folder.path(), [&said](const std::string& line) { said.push_back(line); });
+  reference::MapScene scene;
+  scene.width = scene.height = 4;
+  scene.depth.assign(16, 0.5F);
+  scene.camera.clipFromView = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1.02, -1, 0, 0, -0.2, 0};
+  scene.lights.emplace_back();
+  scene.medium.constituents = {{{0.1F, 0.1F, 0.1F}, tyndall::Phase::Isotropic, 0}};
+  const reference::Image first = cache.mapExact(scene);
+  CHECK(first.rgb.front() > 0);
+  REQUIRE(fs::exists(folder.path()));
+  const fs::path file = fs::directory_iterator(folder.path())->path();
+  const auto size = fs::file_size(file);
+
+  CHECK(cache.mapExact(scene).rgb == first.rgb);
+  CHECK(said.empty());
+  const auto damage = [&](std::streamoff at) {
+    std::fstream stream(file, std::ios::binary | std::ios::in | std::ios::out);
+    stream.seekp(at);
+    stream.put('\x7f');
+  };
+  damage(static_cast<std::streamoff>(size) - 1);
+  CHECK(cache.mapExact(scene).rgb == first.rgb);
+  REQUIRE(said.size() == 1);
+  CHECK(said.back().find("is corrupt: it is made anew") != std::string::npos);
+  damage(8);
+  CHECK(cache.mapExact(scene).rgb == first.rgb);
+  REQUIRE(said.size() == 2);
+  CHECK(said.back().find("is of version 127 instead of") != std::string::npos);
+  fs::resize_file(file, size / 2);
+  CHECK(cache.mapExact(scene).rgb == first.rgb);
+  CHECK(said.size() == 3);
+  scene.medium.absorption = {1, 1, 1};
+  CHECK(cache.mapExact(scene).rgb != first.rgb);
+  CHECK(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()) == 2);
+}

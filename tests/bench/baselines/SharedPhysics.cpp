@@ -1,0 +1,50 @@
+#include "baselines/SharedPhysics.h"
+
+#include "optics/Blocks.h"
+#include "optics/Matrices.h"
+
+#include <cstring>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace bench {
+
+namespace {
+
+template <class Block>
+Bytes bytesOf(const Block& block) {
+  Bytes bytes(sizeof block);
+  std::memcpy(bytes.data(), &block, sizeof block);
+  return bytes;
+}
+
+} // namespace
+
+Bytes frameBlock(const tyndall::Frame& frame, float maxRadiance) {
+  tyndall::optics::FrameSizes sizes;
+  sizes.maxRadiance = maxRadiance;
+  return bytesOf(tyndall::optics::frameBlock(frame, sizes));
+}
+
+Bytes lightBlock(const tyndall::Frame& frame, const tyndall::Light& light, int shadowWidth, int shadowHeight) {
+  return bytesOf(tyndall::optics::lightBlock(light, frame.camera, shadowWidth, shadowHeight));
+}
+
+glm::dmat4 cameraFromTexel(const tyndall::Frame& frame, const tyndall::Light& light, int shadowWidth,
+                           int shadowHeight) {
+  return glm::inverse(
+      glm::dmat4(tyndall::optics::lightBlock(light, frame.camera, shadowWidth, shadowHeight).texelFromCamera[0]));
+}
+
+bool isReversedMap(const tyndall::Frame& frame, const tyndall::Light& light) {
+  return tyndall::optics::lightBlock(light, frame.camera, 1, 1).viewDepth[0].z < 0;
+}
+
+glm::dmat4 clipFromCamera(const tyndall::Frame& frame) {
+  const glm::dmat4 clipFromWorld =
+      tyndall::optics::toGlm(frame.camera.clipFromView) * tyndall::optics::toGlm(frame.camera.viewFromWorld);
+  return glm::translate(clipFromWorld, tyndall::optics::cameraOrigin(frame.camera));
+}
+
+bool isMonochrome(const tyndall::Medium& medium) { return tyndall::optics::isMonochrome(medium); }
+
+} // namespace bench

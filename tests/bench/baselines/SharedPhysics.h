@@ -1,0 +1,28 @@
+// The uniform blocks of glsl/shared.glsl as the effect itself fills them, so that baselines share its physics.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <tyndall/tyndall.h>
+#include <vector>
+
+namespace bench {
+
+using Bytes = std::vector<unsigned char>;
+
+/// maxRadiance: largest finite value of the target's format.
+Bytes frameBlock(const tyndall::Frame& frame, float maxRadiance);
+
+/// shadowWidth, shadowHeight: texels, 0 without a shadow map.
+Bytes lightBlock(const tyndall::Frame& frame, const tyndall::Light& light, int shadowWidth, int shadowHeight);
+
+/// From texels and depth (growing away from the light) of the light's first view to the shaders' camera space: world
+/// axes, the eye as origin.
+glm::dmat4 cameraFromTexel(const tyndall::Frame& frame, const tyndall::Light& light, int shadowWidth, int shadowHeight);
+/// True if the light's shadow map stores depth that falls away from the light.
+bool isReversedMap(const tyndall::Frame& frame, const tyndall::Light& light);
+glm::dmat4 clipFromCamera(const tyndall::Frame& frame);
+
+/// True if every coefficient has the same value in R, G and B.
+bool isMonochrome(const tyndall::Medium& medium);
+
+} // namespace bench
