@@ -21,13 +21,29 @@ vec3 storedLight(Light light, Ray ray) {
 #endif
 }
 
-// Epipolar inscatter carries the binary logarithm of its sample's distance, for unwarp to compare with the pixel's.
+// Epipolar inscatter carries the binary logarithm of its sample's distance, for unwarp to compare with the pixel's. Beside
+// colours there is a half float for it, whose own steps are coarse and uneven: all its normal values, in their order,
+// stand for 2^-20 to 2^28 in even steps of 2^-10.3.
+const float kLogEndLeast = -20.0, kLogEndSteps = 1280.0; // per octave
+const int kHalfLeast = 113 << 10, kHalfCount = 30 << 10; // bits of the normal half floats as a float has them, >> 13
+
+float halfOfLogEnd(float logEnd) {
+  int code = clamp(int((logEnd - kLogEndLeast) * kLogEndSteps + 0.5), 0, 2 * kHalfCount - 1);
+  float size = intBitsToFloat((kHalfLeast + code % kHalfCount) << 13);
+  return code < kHalfCount ? -size : size;
+}
+
+float logEndOfHalf(float value) {
+  int code = (floatBitsToInt(abs(value)) >> 13) - kHalfLeast + (value < 0.0 ? 0 : kHalfCount);
+  return float(code) / kLogEndSteps + kLogEndLeast;
+}
+
 vec4 storedWithEnd(vec3 stored, float end) {
   float logEnd = log2(max(end, 1e-30));
 #if MONOCHROME && !GLASS
   return vec4(stored.r, logEnd, 0.0, 0.0);
 #else
-  return vec4(stored, logEnd);
+  return vec4(stored, halfOfLogEnd(logEnd));
 #endif
 }
 
@@ -35,7 +51,7 @@ float storedLogEnd(vec4 stored) {
 #if MONOCHROME && !GLASS
   return stored.g;
 #else
-  return stored.a;
+  return logEndOfHalf(stored.a);
 #endif
 }
 

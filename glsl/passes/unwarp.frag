@@ -58,8 +58,9 @@ void main() {
   addSlice(slices.y, f, gl_FragCoord.xy, logEnd, sums);
   // Where the samples' distances lead to the pixel's, one surface runs through all of them: to leave out those that
   // differ more, towards a horizon, say, would only pull to one side.
-  bool oneSurface = abs(sums.plain.a - logEnd * sums.plainWeight) < 0.125 * thresholds.w * sums.plainWeight;
-  vec4 sum = oneSurface ? vec4(sums.plain.rgb, sums.plainWeight) : sums.agreeing;
+  float apart = abs(sums.plain.a - logEnd * sums.plainWeight), allowed = 0.125 * thresholds.w * sums.plainWeight;
+  float oneSurface = clamp(2.0 - apart / max(allowed, 1e-20), 0.0, 1.0);
+  vec4 sum = mix(sums.agreeing, vec4(sums.plain.rgb, sums.plainWeight), oneSurface);
   // Next to a lamp inscatter changes from pixel to pixel, and at it every direction has a limit of its own.
   const float kNear = LIGHT_KIND == 0 ? EPIPOLE_GAP : LAMP_PIXELS;
   if (distance(gl_FragCoord.xy * epipole.z, epipole.xy) < (epipole.z > 0.0 ? kNear : EPIPOLE_GAP) * abs(epipole.z)) discard;

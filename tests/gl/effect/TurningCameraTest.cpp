@@ -88,17 +88,6 @@ public:
   // What half a pixel changes in a frame: a shadow's edge that lies along a slice moves by as much at once.
   double displaced(int frame) { return rig_.error(picture(frame)).displaced; }
 
-  void probe(int frame) {
-    const auto show=[&](const char* n, Technique t){ rig_.look(tests::toMat4(viewOf(turn_, frame))); const auto im=rig_.picture(t); const auto e=reference::compare(im,rig_.truth()); printf("%d %s %.4f p99 %.4f\n",frame,n,e.rRmse,e.p99);
-      if (t==Technique::Epipolar && std::string(n)=="epi") { const auto& r=rig_.truth(); for(int y=0;y<im.height;++y) for(int x=0;x<im.width;++x){ double d=(im.rgb[3*(y*im.width+x)]-r.rgb[3*(y*im.width+x)])/e.mean; if(std::abs(d)>0.15) printf("  (%d,%d) %.2f of %.2f\n",x,y,d,r.rgb[3*(y*im.width+x)]/e.mean);} } };
-    auto& st=rig_.scene.frame.settings; const auto keep=st;
-    show("tree",Technique::Tree); show("epi",Technique::Epipolar);
-    st.bendThreshold=1e-6F; show("bend0",Technique::Epipolar); st=keep;
-    st.breakThreshold=1e-3F; show("break.001",Technique::Epipolar); st=keep;
-    st.breakThreshold=0.3F; show("break.3",Technique::Epipolar); st=keep;
-    st.leastWeight=0.9F; show("least.9",Technique::Epipolar); st=keep;
-    st.bendThreshold=1e-6F; st.breakThreshold=1e-3F; st.leastWeight=.5F; show("all",Technique::Epipolar); st=keep;
-  }
 private:
   reference::Image picture(int frame) {
     rig_.look(tests::toMat4(viewOf(turn_, frame)));
@@ -159,5 +148,3 @@ TEST_CASE("a turning camera sees no error that stands out and no jump") {
     CHECK(neighbours >= 2 * (2 * kWindow - 1)); // both edges at least
   }
 }
-
-TEST_CASE("probe") { TurningRig rig(kTurns[1]); for (int f : {255, 285, 600}) rig.probe(f); }
