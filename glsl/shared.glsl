@@ -8,7 +8,7 @@
 #define MAX_SHADOW_VIEWS 6
 #define MAX_DEPTH_SAMPLES 16
 #define EPIPOLE_GAP 0.25 // pixels between an epipole in the image and where slices begin
-#define LAMP_PIXELS 16.0 // around a lamp in the image, where every pixel is marched by itself
+#define LAMP_PIXELS 32.0 // around a lamp in the image, where every pixel is marched by itself: its light is brightest there
 
 UNIFORM_BLOCK(FrameBlock) {
   // The homogeneous point at window position p and t (0 at the far depth, 1 at the near depth) is
@@ -45,6 +45,6 @@ UNIFORM_BLOCK(EpipolarBlock) {
   vec4 sliceMap;      // arc length of the border where the slices begin, arc length per slice, perimeter; w: 1 if closed
   vec4 thresholds;    // x: relative change of distance that is a break, y: least bilateral weight, z: bend of the inscatter that is refined
   vec4 rowCode;       // coded depth of a row = x depth + y; z: that of a texel without a caster; w: 65535 if it is stored in 16 bit, else 0
-  ivec4 grid;         // slices, samples, texels of a row, levels of the tree
+  ivec4 grid;         // slices, samples, texels of a row, levels of the tree or 0: none
   ivec4 march;        // shadow view of a draw, its first table row; z: 1 for the draw that brings what is outside all views
 };

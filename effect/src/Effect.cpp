@@ -41,8 +41,8 @@ struct Effect::State {
   PassRecorder recorder;
   gl::VertexArray vertexArray;
   gl::Framebuffer framebuffer;
-  passes::SliceObjects sliceObjects;
-  gl::Int id = 0; ///< kept in our sampler, where it tells this context from another with the same names
+  gl::Framebuffer scratch; // for the targets of slices
+  gl::Int id = 0;          ///< kept in our sampler, where it tells this context from another with the same names
   gl::Sampler nearestSampler;
   std::array<gl::Buffer, gl::kUniformBindings> uniformBuffers;
 
@@ -148,8 +148,7 @@ void Effect::State::createObjects() {
   vertexArray = gl::VertexArray(gl);
   gl.BindVertexArray(vertexArray.name()); // a name becomes an object when it is first bound
   framebuffer = gl::Framebuffer(gl);
-  sliceObjects.scratch = gl::Framebuffer(gl);
-  sliceObjects.fixup = gl::Query(gl);
+  scratch = gl::Framebuffer(gl);
   nearestSampler = gl::Sampler(gl);
   for (const gl::Enum filter : {gl::TEXTURE_MIN_FILTER, gl::TEXTURE_MAG_FILTER})
     gl.SamplerParameteri(nearestSampler.name(), filter, gl::NEAREST);
@@ -341,7 +340,7 @@ Status Effect::State::drawLight(const Frame& frame, const Light* light, const Fr
         return attach(frame, targets.get(Target::View, frame.width, frame.height), 0, withStencil);
       };
     const SliceInputs in{&frame, light, map, variant, blend, name, attachDestination, attachView, uploadBlock};
-    return epipolar::run(passContext(), targets, recorder, sliceObjects, in);
+    return epipolar::run(passContext(), targets, recorder, scratch, in);
   }
   if (Status s = attachDestination(false, true); !s) return s;
   const exact::In in{variant, frame.depth.texture, light, blend};

@@ -51,13 +51,19 @@ void PassRecorder::endCount() {
   if (counting_) gl_.EndQuery(gl::SAMPLES_PASSED);
 }
 
+// What the newest query counted.
+std::uint64_t PassRecorder::takeCount() {
+  if (!counting_) return 0;
+  gl::Uint64 count = 0;
+  gl_.GetQueryObjectui64v(counts_.back().name(), gl::QUERY_RESULT, &count);
+  counts_.pop_back();
+  return count;
+}
+
 std::uint64_t PassRecorder::marched() {
-  for (const gl::Query& count : counts_) {
-    gl::Uint64 rays = 0;
-    gl_.GetQueryObjectui64v(count.name(), gl::QUERY_RESULT, &rays);
-    marched_ += rays;
-  }
-  counts_.clear();
+  counting_ = true;
+  while (!counts_.empty())
+    marched_ += takeCount();
   return marched_;
 }
 

@@ -42,6 +42,16 @@ public:
     });
   }
 
+  /// Draws, and returns how many fragments were written, for which it waits; 0 while a query of the engine's own is
+  /// under way.
+  template <typename Draw>
+  std::uint64_t countWritten(Draw&& draw) {
+    beginCount();
+    draw();
+    endCount();
+    return takeCount();
+  }
+
   /// Passes of the frame in order; waits for timer queries.
   std::vector<PassStatistics> collect();
 
@@ -54,6 +64,7 @@ private:
   void end();
   void beginCount();
   void endCount();
+  std::uint64_t takeCount();
 
   const gl::Functions& gl_;
   PassTiming timing_;

@@ -44,7 +44,7 @@ Light rowLight(Airlight light, ViewSegment segment, int slice) {
       float state = current == Visibility(1.0) ? 1.0 : current == Visibility(0.0) ? 0.0 : -1.0;
       float found = walkNodes(line, walk, slice, state);
       int nodeEnd = ((walk.index >> 4) + 1) << 4;
-      bool taking = found == kMixed;
+      bool taking = grid.w > 0 && found == kMixed;
       while (taking) taking = takeGroup(line, walk, slice, state) && walk.index < nodeEnd;
       done = walk.index > line.last || guard <= 0;
       float uTexel = rowEnd(line, walk, walk.index + 1), u = uTexel;

@@ -21,37 +21,46 @@ vec3 storedLight(Light light, Ray ray) {
 #endif
 }
 
-// Epipolar inscatter carries the binary logarithm of its sample's distance, for unwarp to compare with the pixel's. Beside
-// colours there is a half float for it, whose own steps are coarse and uneven: all its normal values, in their order,
-// stand for 2^-20 to 2^28 in even steps of 2^-10.3.
-const float kLogEndLeast = -20.0, kLogEndSteps = 1280.0; // per octave
+// Where on its ray a sample ends, for unwarp to compare with the pixel's: the binary logarithm of the distance and, as a
+// lamp's inscatter is even over the angle at the lamp, not over the distance, that angle from the ray's nearest point on.
+float endCoordinate(Ray ray, float end) {
+  float coordinate = log2(max(end, 1e-30));
+#if LIGHT_KIND != 0
+  vec3 toLight = lightPosition.xyz - ray.origin;
+  coordinate += atan(end - dot(toLight, ray.direction), max(length(cross(toLight, ray.direction)), 1e-30));
+#endif
+  return coordinate;
+}
+
+// Epipolar inscatter carries its sample's end coordinate. Beside colours there is a half float for it, whose own steps are
+// coarse and uneven: all its normal values, in their order, stand for -20 to 28 in even steps.
+const float kCoordinateLeast = -20.0, kCoordinateSteps = 1280.0; // steps of a unit
 const int kHalfLeast = 113 << 10, kHalfCount = 30 << 10; // bits of the normal half floats as a float has them, >> 13
 
-float halfOfLogEnd(float logEnd) {
-  int code = clamp(int((logEnd - kLogEndLeast) * kLogEndSteps + 0.5), 0, 2 * kHalfCount - 1);
+float halfOfCoordinate(float coordinate) {
+  int code = clamp(int((coordinate - kCoordinateLeast) * kCoordinateSteps + 0.5), 0, 2 * kHalfCount - 1);
   float size = intBitsToFloat((kHalfLeast + code % kHalfCount) << 13);
   return code < kHalfCount ? -size : size;
 }
 
-float logEndOfHalf(float value) {
+float coordinateOfHalf(float value) {
   int code = (floatBitsToInt(abs(value)) >> 13) - kHalfLeast + (value < 0.0 ? 0 : kHalfCount);
-  return float(code) / kLogEndSteps + kLogEndLeast;
+  return float(code) / kCoordinateSteps + kCoordinateLeast;
 }
 
-vec4 storedWithEnd(vec3 stored, float end) {
-  float logEnd = log2(max(end, 1e-30));
+vec4 storedWithCoordinate(vec3 stored, float coordinate) {
 #if MONOCHROME && !GLASS
-  return vec4(stored.r, logEnd, 0.0, 0.0);
+  return vec4(stored.r, coordinate, 0.0, 0.0);
 #else
-  return vec4(stored, halfOfLogEnd(logEnd));
+  return vec4(stored, halfOfCoordinate(coordinate));
 #endif
 }
 
-float storedLogEnd(vec4 stored) {
+float storedCoordinate(vec4 stored) {
 #if MONOCHROME && !GLASS
   return stored.g;
 #else
-  return logEndOfHalf(stored.a);
+  return coordinateOfHalf(stored.a);
 #endif
 }
 

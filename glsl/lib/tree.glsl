@@ -76,7 +76,7 @@ float boundsVisibility(RowLine line, RowWalk walk, float u, vec2 bounds) {
 float walkNodes(RowLine line, inout RowWalk walk, int slice, float current) {
   float found = kMixed;
   int level = 2, base = 0; // base: where the level begins
-  bool walking = (walk.index & 15) == 0 && walk.index <= line.last;
+  bool walking = grid.w > 0 && (walk.index & 15) == 0 && walk.index <= line.last;
   while (walking) {
     VISIT
     int node = walk.index >> (2 * level), next = (node + 1) << (2 * level);

@@ -1,7 +1,7 @@
 // Interpolate: inscatter of every sample, linearly between the nearest march samples of its slice; there is no break
 // between them. Reads the slice table, sampleEnds, marks, extraOffsets, marched (slices x segments) and extra (slices x samples / 4).
 // Writes epipolarInscatter: slices x samples, with the
-// sample's distance (lib/stored.glsl).
+// sample's end coordinate (lib/stored.glsl).
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/slices.glsl"
@@ -44,5 +44,6 @@ void main() {
   // Beyond the segment's last mark lies the next segment's first sample.
   vec3 b = high < 16 ? marchedAt(slice, chunk, offset, masks, s, high) : texelFetch(marched, ivec2(slice, (index >> 4) + 1), 0).rgb;
   vec3 inscatter = mix(a, b, high > low ? float(bit - low) / float(high - low) : 0.0);
-  outInscatter = storedWithEnd(inscatter, texelFetch(sampleEnds, ivec2(slice, index), 0).r);
+  Ray ray = cameraRay(samplePosition(sliceEnds(slice), samples, float(index)));
+  outInscatter = storedWithCoordinate(inscatter, endCoordinate(ray, texelFetch(sampleEnds, ivec2(slice, index), 0).r));
 }

@@ -20,15 +20,15 @@ layout(location = 0) out vec4 outInscatter;
 layout(location = 1) out vec4 outTransmittance;
 #endif
 
-// Sums over samples: inscatter and weight of the bilateral filter; inscatter, logarithm of the distance and weight of the
-// plain bilinear one.
+// Sums over samples: inscatter and weight of the bilateral filter; inscatter, end coordinate and weight of the plain
+// bilinear one.
 struct Sums {
   vec4 agreeing, plain;
   float plainWeight;
 };
 
-// Adds two samples of a slice, bilinearly, and by how many times the pixel's distance theirs is.
-void addSlice(int slice, float sliceWeight, vec2 p, float logEnd, inout Sums sums) {
+// Adds two samples of a slice, bilinearly, and by how far their end coordinates are from the pixel's.
+void addSlice(int slice, float sliceWeight, vec2 p, float end, inout Sums sums) {
   vec4 line = texelFetch(sliceTable, ivec2(slice, 1), 0);
   float y = dot(p, line.xy) + line.z, pixel = length(line.xy);
   if (y < -pixel || y > line.w + pixel) return; // the slice does not come as far
@@ -37,11 +37,11 @@ void addSlice(int slice, float sliceWeight, vec2 p, float logEnd, inout Sums sum
   float f = y - float(low);
   for (int k = 0; k < 2; ++k) {
     vec4 stored = texelFetch(epipolarInscatter, ivec2(slice, low + k), 0);
-    float weight = sliceWeight * (k == 0 ? 1.0 - f : f), sampleLogEnd = storedLogEnd(stored);
-    float agreement = min(1.0, thresholds.w / max(abs(sampleLogEnd - logEnd), 1e-20));
+    float weight = sliceWeight * (k == 0 ? 1.0 - f : f), sampleEnd = storedCoordinate(stored);
+    float agreement = min(1.0, thresholds.w / max(abs(sampleEnd - end), 1e-20));
     agreement *= agreement;
     sums.agreeing += weight * agreement * agreement * vec4(stored.rgb, 1.0);
-    sums.plain += weight * vec4(stored.rgb, sampleLogEnd);
+    sums.plain += weight * vec4(stored.rgb, sampleEnd);
     sums.plainWeight += weight;
   }
 }
@@ -49,22 +49,22 @@ void addSlice(int slice, float sliceWeight, vec2 p, float logEnd, inout Sums sum
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   float end = max(rayEnd(gl_FragCoord.xy, depthAt(pixel, 0)), 0.0);
-  float coordinate = sliceCoordinate(gl_FragCoord.xy);
-  ivec2 slices = neighbourSlices(coordinate);
-  float f = coordinate - floor(coordinate);
-  float logEnd = log2(max(min(end, extinction.w), 1e-30));
+  float place = sliceCoordinate(gl_FragCoord.xy), f = fract(place);
+  ivec2 slices = neighbourSlices(place);
+  Ray ray = cameraRay(gl_FragCoord.xy);
+  float coordinate = endCoordinate(ray, min(end, extinction.w));
   Sums sums = Sums(vec4(0.0), vec4(0.0), 0.0);
-  addSlice(slices.x, 1.0 - f, gl_FragCoord.xy, logEnd, sums);
-  addSlice(slices.y, f, gl_FragCoord.xy, logEnd, sums);
-  // Where the samples' distances lead to the pixel's, one surface runs through all of them: to leave out those that
+  addSlice(slices.x, 1.0 - f, gl_FragCoord.xy, coordinate, sums);
+  addSlice(slices.y, f, gl_FragCoord.xy, coordinate, sums);
+  // Where the samples' ends lead to the pixel's, one surface runs through all of them: to leave out those that
   // differ more, towards a horizon, say, would only pull to one side.
-  float apart = abs(sums.plain.a - logEnd * sums.plainWeight), allowed = 0.125 * thresholds.w * sums.plainWeight;
+  float apart = abs(sums.plain.a - coordinate * sums.plainWeight), allowed = 0.125 * thresholds.w * sums.plainWeight;
   float oneSurface = clamp(2.0 - apart / max(allowed, 1e-20), 0.0, 1.0);
   vec4 sum = mix(sums.agreeing, vec4(sums.plain.rgb, sums.plainWeight), oneSurface);
-  // Next to a lamp inscatter changes from pixel to pixel, and at it every direction has a limit of its own.
+  // Next to a lamp inscatter and its shadows change from pixel to pixel; at it every direction has a limit of its own.
   const float kNear = LIGHT_KIND == 0 ? EPIPOLE_GAP : LAMP_PIXELS;
   if (distance(gl_FragCoord.xy * epipole.z, epipole.xy) < (epipole.z > 0.0 ? kNear : EPIPOLE_GAP) * abs(epipole.z)) discard;
   if (!(sum.w >= thresholds.y && sum.w > 0.0)) discard;
-  outInscatter = vec4(min(lightFromStored(sum.rgb / sum.w, cameraRay(gl_FragCoord.xy)), limits.xxx), 0.0);
+  outInscatter = vec4(min(lightFromStored(sum.rgb / sum.w, ray), limits.xxx), 0.0);
   outTransmittance = vec4(transmittanceTo(end), 1.0);
 }

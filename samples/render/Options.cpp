@@ -1,14 +1,13 @@
 #include "Options.h"
+#include "CommandLine.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
-#include <scene/Error.h>
 #include <string_view>
-#include <system_error>
+#include <tuple>
 
 namespace render {
 
@@ -39,48 +38,18 @@ Views
 Exit status
   0: done; 1: failed, with one line that names file and cause; 2: wrong usage.)";
 
-/// The options as typed. Numbers are parsed here and not by CLI11, so that nothing but a whole number passes for one.
+/// The options as typed.
 struct Typed {
   std::string scene, camera, eye, target, fov, sun, size, supersample, profile, technique, view, slices, samples,
-      filter, medium, shadowSize, cascades, frames, repeat, context, stats, exposure;
+      rowStep, tree, filter, medium, shadowSize, cascades, frames, repeat, context, stats, exposure;
   std::vector<std::string> out;
   bool reversedDepth = false;
 };
 
-[[noreturn]] void fail(const std::string& option, const std::string& value, const std::string& rule) {
-  throw UsageError(fmt::format("{} {}: {}", option, value, rule));
-}
-
-template <typename Number>
-std::optional<Number> parseWhole(const std::string& text) {
-  Number number{};
-  const char* end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || rest != end) return std::nullopt;
-  return number;
-}
-
-int parseInt(const std::string& option, const std::string& value, int low, int high) {
-  const auto number = parseWhole<int>(value);
-  if (!number || *number < low || *number > high)
-    fail(option, value, fmt::format("must be a whole number from {} to {}", low, high));
-  return *number;
-}
-
 double parseFinite(const std::string& option, const std::string& value, const std::string& part) {
   const auto number = parseWhole<double>(part);
-  if (!number || !std::isfinite(*number)) fail(option, value, fmt::format("\"{}\" is not a finite number", part));
+  if (!number || !std::isfinite(*number)) failUsage(option, value, fmt::format("\"{}\" is not a finite number", part));
   return *number;
-}
-
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts(1);
-  for (const char c : text)
-    if (c == separator)
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  return parts;
 }
 
 std::vector<double> parseNumbers(const std::string& option, const std::string& value) {
@@ -92,94 +61,90 @@ std::vector<double> parseNumbers(const std::string& option, const std::string& v
 
 glm::dvec3 parsePoint(const std::string& option, const std::string& value) {
   const std::vector<double> numbers = parseNumbers(option, value);
-  if (numbers.size() != 3) fail(option, value, "must be three numbers X,Y,Z");
+  if (numbers.size() != 3) failUsage(option, value, "must be three numbers X,Y,Z");
   return {numbers[0], numbers[1], numbers[2]};
 }
 
 Sun parseSun(const std::string& value) {
   const std::vector<double> n = parseNumbers("--sun", value);
-  if (n.size() != 3 && n.size() != 6) fail("--sun", value, "must be DX,DY,DZ or DX,DY,DZ,R,G,B");
+  if (n.size() != 3 && n.size() != 6) failUsage("--sun", value, "must be DX,DY,DZ or DX,DY,DZ,R,G,B");
   Sun sun;
   sun.direction = {n[0], n[1], n[2]};
   const double length = glm::length(sun.direction);
-  if (!(length > 0) || !std::isfinite(length)) fail("--sun", value, "its direction must have a length");
+  if (!(length > 0) || !std::isfinite(length)) failUsage("--sun", value, "its direction must have a length");
   if (n.size() == 6) {
-    if (n[3] < 0 || n[4] < 0 || n[5] < 0) fail("--sun", value, "its colour must not be negative");
+    if (n[3] < 0 || n[4] < 0 || n[5] < 0) failUsage("--sun", value, "its colour must not be negative");
     sun.colour = glm::vec3(n[3], n[4], n[5]);
   }
   return sun;
 }
 
 void readSize(const std::string& value, const std::string& supersample, Options& options) {
-  const std::string rule = fmt::format("must be WIDTHxHEIGHT, each from 1 to {}", tyndall::kMaxImageSize);
-  const std::vector<std::string> parts = split(value, 'x');
-  if (parts.size() != 2) fail("--size", value, rule);
-  const auto width = parseWhole<int>(parts[0]);
-  const auto height = parseWhole<int>(parts[1]);
-  if (!width || !height || std::min(*width, *height) < 1 || std::max(*width, *height) > tyndall::kMaxImageSize)
-    fail("--size", value, rule);
-  options.width = *width;
-  options.height = *height;
+  std::tie(options.width, options.height) = parseSize("--size", value, 1);
   options.supersample = parseInt("--supersample", supersample, 1, kMaxSupersample);
   if (std::max(renderedWidth(options), renderedHeight(options)) > tyndall::kMaxImageSize)
-    fail("--supersample", supersample, fmt::format("makes more than {} pixels a side", tyndall::kMaxImageSize));
+    failUsage("--supersample", supersample, fmt::format("makes more than {} pixels a side", tyndall::kMaxImageSize));
 }
 
 FrameRange parseFrames(const std::string& value) {
   const std::vector<std::string> parts = split(value, '-');
   const std::string rule = fmt::format("must be FIRST-LAST, 0 <= FIRST <= LAST <= {}", kMaxFrame);
-  if (parts.size() != 2) fail("--frames", value, rule);
+  if (parts.size() != 2) failUsage("--frames", value, rule);
   const auto first = parseWhole<int>(parts[0]);
   const auto last = parseWhole<int>(parts[1]);
-  if (!first || !last || *first < 0 || *last < *first || *last > kMaxFrame) fail("--frames", value, rule);
+  if (!first || !last || *first < 0 || *last < *first || *last > kMaxFrame) failUsage("--frames", value, rule);
   return {*first, *last};
 }
 
 void readView(const Typed& typed, Options& options) {
   if (!typed.camera.empty()) {
-    if (!typed.eye.empty()) fail("--camera", typed.camera, "cannot go with --eye");
+    if (!typed.eye.empty()) failUsage("--camera", typed.camera, "cannot go with --eye");
     options.camera = parseInt("--camera", typed.camera, 0, kMaxFrame);
   }
   if (typed.eye.empty() != typed.target.empty())
-    fail(typed.eye.empty() ? "--target" : "--eye", typed.eye.empty() ? typed.target : typed.eye,
-         "--eye and --target go together");
+    failUsage(typed.eye.empty() ? "--target" : "--eye", typed.eye.empty() ? typed.target : typed.eye,
+              "--eye and --target go together");
   if (typed.eye.empty()) {
-    if (!typed.fov.empty()) fail("--fov", typed.fov, "needs --eye and --target");
+    if (!typed.fov.empty()) failUsage("--fov", typed.fov, "needs --eye and --target");
     return;
   }
   LookAt lookAt;
   lookAt.eye = parsePoint("--eye", typed.eye);
   lookAt.target = parsePoint("--target", typed.target);
-  if (lookAt.eye == lookAt.target) fail("--target", typed.target, "must differ from --eye");
+  if (lookAt.eye == lookAt.target) failUsage("--target", typed.target, "must differ from --eye");
   if (!typed.fov.empty()) {
     lookAt.fovDegrees = parseFinite("--fov", typed.fov, typed.fov);
     if (lookAt.fovDegrees <= 0 || lookAt.fovDegrees >= 180)
-      fail("--fov", typed.fov, "must be between 0 and 180 degrees");
+      failUsage("--fov", typed.fov, "must be between 0 and 180 degrees");
   }
   options.lookAt = lookAt;
 }
 
 tyndall::View parseView(const std::string& name) {
   const auto* const found = std::find(kViews.begin(), kViews.end(), name);
-  if (found == kViews.end()) fail("--view", name, fmt::format("must be one of {}", fmt::join(kViews, ", ")));
+  if (found == kViews.end()) failUsage("--view", name, fmt::format("must be one of {}", fmt::join(kViews, ", ")));
   return static_cast<tyndall::View>(found - kViews.begin());
 }
 
 void readQuality(const Typed& typed, Options& options) {
   if (std::find(kProfiles.begin(), kProfiles.end(), typed.profile) == kProfiles.end())
-    fail("--profile", typed.profile, "must be performance, balanced, high or reference");
+    failUsage("--profile", typed.profile, "must be performance, balanced, high or reference");
   options.profile = typed.profile;
   if (!typed.slices.empty()) options.slices = parseInt("--slices", typed.slices, 1, 8192);
   if (!typed.samples.empty()) options.samples = parseInt("--samples", typed.samples, 64, 8192);
-  if (options.samples.value_or(64) % 64 != 0) fail("--samples", typed.samples, "must be a multiple of 64");
+  if (options.samples.value_or(64) % 64 != 0) failUsage("--samples", typed.samples, "must be a multiple of 64");
+  if (!typed.rowStep.empty()) options.rowStep = parseInt("--row-step", typed.rowStep, 1, 8);
+  if (!typed.tree.empty() && typed.tree != "on" && typed.tree != "off")
+    failUsage("--tree", typed.tree, "must be on or off");
+  options.minMaxTree = typed.tree != "off";
   options.technique = !typed.technique.empty() ? typed.technique : typed.profile == "reference" ? "exact" : "epipolar";
   if (std::find(kTechniques.begin(), kTechniques.end(), options.technique) == kTechniques.end())
-    fail("--technique", options.technique, "must be exact, tree or epipolar");
+    failUsage("--technique", options.technique, "must be exact, tree or epipolar");
   if (!typed.view.empty()) options.view = parseView(typed.view);
   if (typed.filter == "bilinear")
     options.shadowFilter = tyndall::ShadowFilter::Bilinear;
   else if (typed.filter != "nearest")
-    fail("--filter", typed.filter, "must be nearest or bilinear");
+    failUsage("--filter", typed.filter, "must be nearest or bilinear");
   options.shadowSize = parseInt("--shadow-size", typed.shadowSize, 1, tyndall::kMaxImageSize);
   options.cascades = parseInt("--cascades", typed.cascades, 1, 4);
   options.reversedDepth = typed.reversedDepth;
@@ -187,21 +152,22 @@ void readQuality(const Typed& typed, Options& options) {
 }
 
 void readOutputs(const Typed& typed, Options& options) {
-  if (typed.out.size() > 2) fail("--out", typed.out.back(), "may be given twice at most");
+  if (typed.out.size() > 2) failUsage("--out", typed.out.back(), "may be given twice at most");
   for (const std::string& name : typed.out) {
     std::string extension = std::filesystem::path(name).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return std::tolower(c); });
-    if (extension != ".exr" && extension != ".png") fail("--out", name, "must end in .exr or .png");
+    if (extension != ".exr" && extension != ".png") failUsage("--out", name, "must end in .exr or .png");
     const bool holdsPlace = name.find(kFramePlace) != std::string::npos;
     if (holdsPlace != options.frames.has_value())
-      fail("--out", name, holdsPlace ? "holds %04d, which needs --frames" : "must hold %04d when --frames is given");
+      failUsage("--out", name,
+                holdsPlace ? "holds %04d, which needs --frames" : "must hold %04d when --frames is given");
     options.out.emplace_back(name);
   }
   if (!typed.stats.empty()) options.stats = typed.stats;
-  if (options.out.size() == 2 && options.out[0] == options.out[1]) fail("--out", typed.out[0], "is given twice");
+  if (options.out.size() == 2 && options.out[0] == options.out[1]) failUsage("--out", typed.out[0], "is given twice");
   if (options.stats && std::find(options.out.begin(), options.out.end(), *options.stats) != options.out.end())
-    fail("--stats", typed.stats, "is the name of an --out, too");
+    failUsage("--stats", typed.stats, "is the name of an --out, too");
 }
 
 void addOptions(CLI::App& app, Typed& typed) {
@@ -215,7 +181,7 @@ void addOptions(CLI::App& app, Typed& typed) {
   app.add_option("--size", typed.size, "pixels (default 1280x720)")->type_name("WxH");
   app.add_option("--supersample", typed.supersample, "render N x N pixels for each one of the picture (default 1)")
       ->type_name("N");
-  app.add_option("--profile", typed.profile, "quality: performance, balanced, high or reference (default)")
+  app.add_option("--profile", typed.profile, "quality: performance, balanced, high (default) or reference")
       ->type_name("NAME");
   app.add_option("--technique", typed.technique, "exact, tree or epipolar; by the profile if not given")
       ->type_name("NAME");
@@ -223,6 +189,11 @@ void addOptions(CLI::App& app, Typed& typed) {
   app.add_option("--slices", typed.slices, "epipolar lines; by the profile if not given")->type_name("N");
   app.add_option("--samples", typed.samples, "samples of a slice, a multiple of 64; by the profile if not given")
       ->type_name("N");
+  app.add_option("--row-step", typed.rowStep,
+                 "shadow texels from one sample of a row to the next; by the profile if not given")
+      ->type_name("N");
+  app.add_option("--tree", typed.tree, "skip along rows by their min/max tree: on (default) or off")
+      ->type_name("SWITCH");
   app.add_option("--filter", typed.filter, "of the shadow map: nearest (default) or bilinear")->type_name("NAME");
   app.add_option("--medium", typed.medium, "the medium, instead of the scene's")->type_name("M.json");
   app.add_option("--shadow-size", typed.shadowSize, "texels per side of a shadow map (default 4096)")->type_name("N");
@@ -250,15 +221,12 @@ Options fromTyped(const Typed& typed) {
   readQuality(typed, options);
   if (!typed.medium.empty()) options.medium = typed.medium;
   if (!typed.frames.empty()) options.frames = parseFrames(typed.frames);
-  try {
-    options.context = host::parseContextKind(typed.context);
-  } catch (const host::Error&) {
-    fail("--context", typed.context, "must be osmesa, egl or glfw");
-  }
+  options.context = parseContext("--context", typed.context);
   readOutputs(typed, options);
   if (!typed.exposure.empty()) {
     options.exposureStops = parseFinite("--exposure", typed.exposure, typed.exposure);
-    if (std::abs(*options.exposureStops) > 100) fail("--exposure", typed.exposure, "must be from -100 to 100 stops");
+    if (std::abs(*options.exposureStops) > 100)
+      failUsage("--exposure", typed.exposure, "must be from -100 to 100 stops");
   }
   return options;
 }
@@ -269,7 +237,7 @@ Options parseOptions(int argc, const char* const* argv) {
   Typed typed;
   typed.size = "1280x720";
   typed.supersample = "1";
-  typed.profile = "reference";
+  typed.profile = "high";
   typed.filter = "nearest";
   typed.shadowSize = "4096";
   typed.cascades = "1";
@@ -278,19 +246,7 @@ Options parseOptions(int argc, const char* const* argv) {
   app.footer(kFooter);
   app.set_version_flag("--version", "tyndall-render " TYNDALL_VERSION);
   addOptions(app, typed);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    throw Answer{app.help()};
-  } catch (const CLI::CallForVersion& version) {
-    throw Answer{std::string(version.what()) + "\n"};
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
-  }
-  // An option given as "" must not pass for one left out.
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& value : option->results())
-      if (value.empty()) fail(option->get_name(), "\"\"", "must not be empty");
+  parseArguments(app, argc, argv);
   return fromTyped(typed);
 }
 

@@ -5,7 +5,6 @@
 #include <gl/Context.h>
 #include <glm/glm.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <tyndall/tyndall.h>
 #include <vector>
@@ -37,10 +36,12 @@ struct Options {
   int width = 1280;
   int height = 720;
   int supersample = 1; ///< pixels rendered for one of the picture, along each side
-  std::string profile = "reference";
-  std::string technique = "exact";
+  std::string profile = "high";
+  std::string technique = "epipolar";
   std::optional<int> slices;  ///< none: by the profile
   std::optional<int> samples; ///< none: by the profile
+  std::optional<int> rowStep; ///< none: by the profile
+  bool minMaxTree = true;
   tyndall::View view = tyndall::View::Composite;
   tyndall::ShadowFilter shadowFilter = tyndall::ShadowFilter::Nearest;
   std::optional<std::filesystem::path> medium;
@@ -59,18 +60,7 @@ struct Options {
 inline int renderedWidth(const Options& options) { return options.width * options.supersample; }
 inline int renderedHeight(const Options& options) { return options.height * options.supersample; }
 
-/// The command line breaks a rule: one line that names option, value and rule.
-class UsageError : public std::runtime_error {
-public:
-  using std::runtime_error::runtime_error;
-};
-
-/// --help or --version was asked for: the text to print.
-struct Answer {
-  std::string text;
-};
-
-/// Throws UsageError or Answer.
+/// Throws UsageError or Answer (CommandLine.h).
 Options parseOptions(int argc, const char* const* argv);
 
 } // namespace render

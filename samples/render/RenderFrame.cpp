@@ -44,6 +44,8 @@ tyndall::Settings settingsOf(const Options& options) {
   settings.shadowFilter = options.shadowFilter;
   settings.slices = options.slices.value_or(settings.slices);
   settings.samples = options.samples.value_or(settings.samples);
+  settings.rowStep = options.rowStep.value_or(settings.rowStep);
+  settings.minMaxTree = options.minMaxTree;
   return settings;
 }
 

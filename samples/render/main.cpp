@@ -1,5 +1,6 @@
 // tyndall-render: a glTF scene with volumetric shadows, to EXR and PNG.
 
+#include "CommandLine.h"
 #include "Options.h"
 #include "Outputs.h"
 #include "Progress.h"

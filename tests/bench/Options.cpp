@@ -4,15 +4,15 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fmt/format.h>
 #include <fstream>
-#include <scene/Error.h>
+#include <render/CommandLine.h>
 
 namespace bench {
 
 namespace {
+
+using render::failUsage;
 
 constexpr int kLeastRuns = 5;
 constexpr int kMostRuns = 1000;
@@ -24,66 +24,39 @@ struct Typed {
   bool quick = false, all = false, plots = false, scaling = false;
 };
 
-[[noreturn]] void fail(const std::string& option, const std::string& value, const std::string& rule) {
-  throw UsageError(fmt::format("{} {}: {}", option, value, rule));
-}
-
 std::vector<std::string> splitList(const std::string& option, const std::string& value) {
-  std::vector<std::string> parts(1);
-  for (const char c : value)
-    if (c == ',')
-      parts.emplace_back();
-    else
-      parts.back() += c;
+  std::vector<std::string> parts = render::split(value, ',');
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (parts[i].empty()) fail(option, "\"" + value + "\"", "must be a list separated by single commas");
+    if (parts[i].empty()) failUsage(option, "\"" + value + "\"", "must be a list separated by single commas");
     if (std::find(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(i), parts[i]) !=
         parts.begin() + static_cast<std::ptrdiff_t>(i))
-      fail(option, value, "names " + parts[i] + " twice");
+      failUsage(option, value, "names " + parts[i] + " twice");
   }
   return parts;
 }
 
-template <class Number>
-bool parseWhole(const std::string& text, Number& number) {
-  const char* end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  return error == std::errc() && rest == end;
-}
-
 std::vector<int> parseInts(const std::string& option, const std::string& value, int low, int high) {
   std::vector<int> numbers;
-  for (const std::string& part : splitList(option, value)) {
-    int number = 0;
-    if (!parseWhole(part, number) || number < low || number > high)
-      fail(option, part, fmt::format("must be whole numbers from {} to {}", low, high));
-    numbers.push_back(number);
-  }
+  for (const std::string& part : splitList(option, value))
+    numbers.push_back(render::parseInt(option, part, low, high));
   return numbers;
 }
 
 std::vector<double> parseDensities(const std::string& value) {
   std::vector<double> numbers;
   for (const std::string& part : splitList("--densities", value)) {
-    double number = 0;
-    if (!parseWhole(part, number) || !(number > 0 && number <= 1e6))
-      fail("--densities", part, "must be numbers above 0, at most 1e6");
-    numbers.push_back(number);
+    const auto number = render::parseWhole<double>(part);
+    if (!number || !(*number > 0 && *number <= 1e6))
+      failUsage("--densities", part, "must be numbers above 0, at most 1e6");
+    numbers.push_back(*number);
   }
   return numbers;
 }
 
 std::vector<std::pair<int, int>> parseSizes(const std::string& value) {
   std::vector<std::pair<int, int>> sizes;
-  for (const std::string& part : splitList("--sizes", value)) {
-    const std::size_t x = part.find('x');
-    int width = 0, height = 0;
-    const bool valid = x != std::string::npos && parseWhole(part.substr(0, x), width) &&
-                       parseWhole(part.substr(x + 1), height) && std::min(width, height) >= 16 &&
-                       std::max(width, height) <= tyndall::kMaxImageSize;
-    if (!valid) fail("--sizes", part, fmt::format("must be WIDTHxHEIGHT, each from 16 to {}", tyndall::kMaxImageSize));
-    sizes.emplace_back(width, height);
-  }
+  for (const std::string& part : splitList("--sizes", value))
+    sizes.push_back(render::parseSize("--sizes", part, 16));
   return sizes;
 }
 
@@ -93,7 +66,7 @@ std::vector<std::string> parseScenes(const std::string& value) {
   std::vector<std::string> names = splitList("--scenes", value);
   for (const std::string& name : names)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      fail("--scenes", name, fmt::format("must be all or of {}", fmt::join(known, ", ")));
+      failUsage("--scenes", name, fmt::format("must be all or of {}", fmt::join(known, ", ")));
   return names;
 }
 
@@ -103,7 +76,7 @@ std::vector<Technique> parseTechniques(const std::string& value) {
     try {
       techniques.push_back(parseTechnique(name));
     } catch (const std::invalid_argument& error) {
-      throw UsageError(std::string("--techniques ") + error.what());
+      throw render::UsageError(std::string("--techniques ") + error.what());
     }
   return techniques;
 }
@@ -111,27 +84,23 @@ std::vector<Technique> parseTechniques(const std::string& value) {
 std::vector<host::ContextKind> parseContexts(const std::string& value) {
   std::vector<host::ContextKind> kinds;
   for (const std::string& name : splitList("--contexts", value))
-    try {
-      kinds.push_back(host::parseContextKind(name));
-    } catch (const host::Error&) {
-      fail("--contexts", name, "must be osmesa, egl or glfw");
-    }
+    kinds.push_back(render::parseContext("--contexts", name));
   return kinds;
 }
 
 void requireWritableFolder(const std::string& option, const std::filesystem::path& folder) {
-  if (!std::filesystem::is_directory(folder)) fail(option, folder.string(), "must be a folder that exists");
+  if (!std::filesystem::is_directory(folder)) failUsage(option, folder.string(), "must be a folder that exists");
   const std::filesystem::path probe = folder / ".tyndall-bench-probe";
   const bool writable = std::ofstream(probe).good();
   std::error_code ignored;
   std::filesystem::remove(probe, ignored);
-  if (!writable) fail(option, folder.string(), "must be a folder that can be written to");
+  if (!writable) failUsage(option, folder.string(), "must be a folder that can be written to");
 }
 
 void readReferences(const Typed& typed, Options& options) {
   if (typed.references.empty()) return;
   for (const std::string& name : splitList("--references", typed.references)) {
-    if (name != "map" && name != "scene") fail("--references", name, "must be of map, scene");
+    if (name != "map" && name != "scene") failUsage("--references", name, "must be of map, scene");
     (name == "map" ? options.mapExact : options.sceneExact) = true;
   }
 }
@@ -147,7 +116,7 @@ void readOutputs(const Typed& typed, Options& options) {
     requireWritableFolder("--out", kAllFolder);
     options.out = kAllFolder;
   }
-  if (options.plots && options.out.empty()) fail("--plots", "", "needs --out");
+  if (options.plots && options.out.empty()) failUsage("--plots", "", "needs --out");
   if (!typed.cache.empty()) {
     requireWritableFolder("--cache", typed.cache);
     options.cache = typed.cache;
@@ -173,7 +142,7 @@ void applyAll(Typed& typed) {
 }
 
 Options fromTyped(Typed typed) {
-  if (typed.quick && typed.all) fail("--quick", "", "cannot go with --all");
+  if (typed.quick && typed.all) failUsage("--quick", "", "cannot go with --all");
   if (typed.quick) applyQuick(typed);
   if (typed.all) applyAll(typed);
   Options options;
@@ -190,9 +159,7 @@ Options fromTyped(Typed typed) {
   if (typed.scaling)
     for (Setup& setup : planScaling())
       options.setups.push_back(std::move(setup));
-  const std::vector<int> runs = parseInts("--runs", typed.runs, kLeastRuns, kMostRuns);
-  if (runs.size() != 1) fail("--runs", typed.runs, "must be one number");
-  options.runs = runs.front();
+  options.runs = render::parseInt("--runs", typed.runs, kLeastRuns, kMostRuns);
   readReferences(typed, options);
   readOutputs(typed, options);
   return options;
@@ -233,17 +200,7 @@ Options parseOptions(int argc, const char* const* argv) {
   app.footer("\nTechniques\n" + techniqueHelp() +
              "\nExit status\n  0: done; 1: a case failed, or Ctrl-C ended it early; 2: wrong usage.");
   addOptions(app, typed);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    throw Answer{app.help()};
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
-  }
-  // An option given as "" must not pass for one left out.
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& value : option->results())
-      if (value.empty()) fail(option->get_name(), "\"\"", "must not be empty");
+  render::parseArguments(app, argc, argv);
   return fromTyped(typed);
 }
 

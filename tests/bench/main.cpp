@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <render/CommandLine.h>
 #include <scene/Error.h>
 #include <scene/FileIo.h>
 
@@ -101,10 +102,10 @@ int main(int argc, char** argv) {
   constexpr int kWrongUsage = 2;
   try {
     return bench::run(bench::parseOptions(argc, argv));
-  } catch (const bench::Answer& answer) {
+  } catch (const render::Answer& answer) {
     fmt::print("{}", answer.text);
     return 0;
-  } catch (const bench::UsageError& error) {
+  } catch (const render::UsageError& error) {
     return bench::fail(kWrongUsage, error.what());
   } catch (const std::exception& error) {
     return bench::fail(kFailed, error.what());

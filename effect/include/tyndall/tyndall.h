@@ -192,6 +192,8 @@ struct Settings {
   int slices = 1152; ///< Tree, Epipolar: epipolar lines, 1 to 8192; never more than pixels on the visible border
   int samples = 512; ///< Epipolar: samples of a slice, a multiple of 64 from 64 to 8192; never denser than pixels
   int rowStep = 1;   ///< Tree, Epipolar: shadow-map texels from one sample of a row to the next, 1 to 8
+  bool minMaxTree =
+      true; ///< Tree, Epipolar: skip along rows by their min/max tree; off: texel by texel, for measurements
   float breakThreshold = 0.04F; ///< Epipolar: relative change of distance that counts as a depth break, > 0
   float bendThreshold =
       0.02F; ///< Epipolar: relative bend of the inscatter along a slice that is marched more finely, > 0

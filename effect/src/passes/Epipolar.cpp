@@ -61,9 +61,9 @@ Status runTree(SliceContext& context) {
 
 } // namespace
 
-Status run(const PassContext& pass, Targets& targets, PassRecorder& recorder, const SliceObjects& objects,
+Status run(const PassContext& pass, Targets& targets, PassRecorder& recorder, const gl::Framebuffer& scratch,
            const SliceInputs& inputs) {
-  SliceContext context{pass, targets, recorder, objects, inputs};
+  SliceContext context{pass, targets, recorder, scratch, inputs};
   const slices::In in{inputs.frame, inputs.light, inputs.map};
   if (Status s = slices::run(pass, targets, in, context.slices); !s) return s;
   return inputs.frame->settings.technique == Technique::Tree ? runTree(context) : runEpipolar(context);

@@ -6,7 +6,7 @@
 namespace tyndall::passes::epipolar {
 
 /// Adds the light by Technique::Tree or Technique::Epipolar. The frame and light blocks must be bound.
-Status run(const PassContext& context, Targets& targets, PassRecorder& recorder, const SliceObjects& objects,
+Status run(const PassContext& context, Targets& targets, PassRecorder& recorder, const gl::Framebuffer& scratch,
            const SliceInputs& inputs);
 
 /// Every shader variant that run() can ask for.

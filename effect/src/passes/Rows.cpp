@@ -30,6 +30,11 @@ Status run(SliceContext& context, const In& in, Out& out) {
   setBlend(context.pass, Blend::Replace);
   if (Status s = target(context, Target::RowDepths, room / 4, drawn / 4, out.depths); !s) return s;
   if (Status s = context.draw("rows", "passes/rowDepths.frag", context.definitions); !s) return s;
+  if (levels == 0) {
+    context.recorder.skip(context.inputs.name + " tree", "settings.minMaxTree is false");
+    out.tree = out.depths; // bound, never read
+    return {};
+  }
   context.bind(gl::Unit::RowDepths, out.depths);
   if (Status s = target(context, Target::RowNodes, room / 16, drawn / 16, nodes); !s) return s;
   if (Status s = context.draw("nodes", "passes/rowNodes.frag", context.definitions); !s) return s;

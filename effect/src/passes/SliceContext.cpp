@@ -31,7 +31,7 @@ void SliceContext::bindMaps() const {
 Status SliceContext::target(Target which, int width, int height, gl::Uint& texture) {
   texture = targets.get(which, width, height, isWide(*this, which));
   if (!texture) return slices::outOfMemory();
-  gl.BindFramebuffer(gl::DRAW_FRAMEBUFFER, objects.scratch.name());
+  gl.BindFramebuffer(gl::DRAW_FRAMEBUFFER, scratch.name());
   gl.FramebufferTexture2D(gl::DRAW_FRAMEBUFFER, gl::COLOR_ATTACHMENT0, gl::TEXTURE_2D, texture, 0);
   const gl::Enum buffer = gl::COLOR_ATTACHMENT0;
   gl.DrawBuffers(1, &buffer);

@@ -26,17 +26,11 @@ struct SliceInputs {
   std::function<void(int binding, const void* data, std::size_t size)> upload;
 };
 
-/// Objects that outlive a frame.
-struct SliceObjects {
-  gl::Framebuffer scratch; ///< for the effect's own targets
-  gl::Query fixup;         ///< samples that unwarp served
-};
-
 struct SliceContext {
   const PassContext& pass;
   Targets& targets;
   PassRecorder& recorder;
-  const SliceObjects& objects;
+  const gl::Framebuffer& scratch; ///< for the effect's own targets
   const SliceInputs& inputs;
   const gl::Functions& gl = pass.gl;
   gl::Definitions definitions = exact::definitionsOf(inputs.variant);

@@ -20,7 +20,7 @@ int chooseRow(const In& in, int longestRow, blocks::EpipolarBlock& block) {
   const int unit = 1 << (2 * top);
   const int room = (texels + unit - 1) / unit * unit;
   block.grid.z = std::clamp((longestRow + unit - 1) / unit * unit, unit, room);
-  block.grid.w = top;
+  block.grid.w = in.frame->settings.minMaxTree ? top : 0;
   block.march.w = in.light->shadow.texture ? static_cast<int>(in.light->shadow.views.size()) : 0;
   return room;
 }

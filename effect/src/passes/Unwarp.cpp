@@ -4,18 +4,6 @@ namespace tyndall::passes::unwarp {
 
 namespace {
 
-// Draws unwarp and counts the pixels that it wrote: none are known while a query of the engine is under way.
-Status drawCounted(SliceContext& context, gl::Uint64& served) {
-  const gl::Functions& gl = context.gl;
-  gl::Int busy = 0;
-  gl.GetQueryiv(gl::SAMPLES_PASSED, gl::CURRENT_QUERY, &busy); // the engine's own query may be under way
-  if (!busy) gl.BeginQuery(gl::SAMPLES_PASSED, context.objects.fixup.name());
-  Status status = context.draw("unwarp", "passes/unwarp.frag", context.definitions);
-  if (!busy) gl.EndQuery(gl::SAMPLES_PASSED);
-  if (!busy) gl.GetQueryObjectui64v(context.objects.fixup.name(), gl::QUERY_RESULT, &served);
-  return status;
-}
-
 // The pixels that are left, along their slice's tree. With several views only the last one's rows are at hand: those
 // pixels then walk every texel.
 Status fixUp(SliceContext& context, const In& in) {
@@ -42,9 +30,10 @@ Status run(SliceContext& context, const In& in) {
   gl.StencilFunc(gl::ALWAYS, 1, 0xFF);
   gl.StencilOp(gl::KEEP, gl::KEEP, gl::REPLACE);
   setBlend(context.pass, context.inputs.blend);
-  gl::Uint64 served = 0;
-  Status status = drawCounted(context, served);
-  const auto pixels = static_cast<gl::Uint64>(frame.width) * static_cast<gl::Uint64>(frame.height);
+  Status status;
+  const std::uint64_t served = context.recorder.countWritten(
+      [&] { status = context.draw("unwarp", "passes/unwarp.frag", context.definitions); });
+  const auto pixels = static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height);
   context.recorder.countFixup(pixels - served);
   context.recorder.countMarched(pixels - served);
   if (status && served == pixels) context.recorder.skip(context.inputs.name + " fix-up", "every pixel was served");

@@ -60,7 +60,36 @@ void checkTree(const Case& item, bool both) {
   if (both) checkTree(item, ShadowFilter::Bilinear, true);
 }
 
+// Rows walked through their tree and texel by texel.
+void checkSwitch(const Case& item, ShadowFilter filter, bool glass) {
+  CAPTURE(item.name, static_cast<int>(filter), glass);
+  tests::ShaftRig rig(72, 48);
+  rig.addLight(item.light, 128, glass);
+  Settings& settings = rig.scene.frame.settings;
+  settings.shadowFilter = filter;
+  for (const Technique technique : {Technique::Tree, Technique::Epipolar}) {
+    CAPTURE(static_cast<int>(technique));
+    settings.minMaxTree = true;
+    const reference::Image with = rig.picture(technique);
+    settings.minMaxTree = false;
+    const reference::Image without = rig.picture(technique);
+    CHECK(tests::difference(with, without) <= 1e-6);
+    int skipped = 0;
+    for (const PassStatistics& pass : tests::testEffect().statistics().passes)
+      if (pass.skipped == "settings.minMaxTree is false") ++skipped;
+    CHECK(skipped >= 1);
+  }
+}
+
 } // namespace
+
+TEST_CASE("the tree of a row only saves time: the picture is the same without it") {
+  for (const std::vector<Case>& cases : {suns(), lamps()})
+    for (const Case& item : cases) {
+      checkSwitch(item, ShadowFilter::Nearest, false);
+      checkSwitch(item, ShadowFilter::Bilinear, item.light.kind == LightKind::Spot);
+    }
+}
 
 TEST_CASE("tree comes close to exact for a sun with one to four cascades") {
   for (const Case& item : suns())

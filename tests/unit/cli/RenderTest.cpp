@@ -88,7 +88,8 @@ TEST_CASE("reversed depth makes the same picture") {
 
 TEST_CASE("tyndall-render writes statistics") {
   const tests::ToolFolder folder;
-  const tests::ToolResult result = folder.run(viewWith({"--repeat", "3", "--stats", "s.json"}));
+  const tests::ToolResult result =
+      folder.run(viewWith({"--profile", "reference", "--repeat", "3", "--stats", "s.json"}));
   CAPTURE(result.err);
   REQUIRE(result.exitCode == 0);
   CHECK(result.out.empty());

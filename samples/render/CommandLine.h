@@ -1,0 +1,59 @@
+// What the command lines of Tyndall's tools share: errors that name option, value and rule, and how values are read.
+// Numbers are parsed here and not by CLI11, so that nothing but a whole number passes for one.
+#pragma once
+
+#include <charconv>
+#include <gl/Context.h>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace render {
+
+/// The command line breaks a rule: one line that names option, value and rule.
+class UsageError : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// --help or --version was asked for: the text to print.
+struct Answer {
+  std::string text;
+};
+
+/// Throws UsageError.
+[[noreturn]] void failUsage(const std::string& option, const std::string& value, const std::string& rule);
+
+/// The number that all of the text is; none if it is anything else.
+template <typename Number>
+std::optional<Number> parseWhole(const std::string& text) {
+  Number number{};
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || rest != end) return std::nullopt;
+  return number;
+}
+
+/// Throws UsageError unless it is a whole number from `low` to `high`.
+int parseInt(const std::string& option, const std::string& value, int low, int high);
+
+/// WIDTHxHEIGHT, each from `least` to tyndall::kMaxImageSize. Throws UsageError.
+std::pair<int, int> parseSize(const std::string& option, const std::string& value, int least);
+
+/// Throws UsageError.
+host::ContextKind parseContext(const std::string& option, const std::string& value);
+
+/// The parts between separators: at least one, which may be empty.
+std::vector<std::string> split(const std::string& text, char separator);
+
+/// Fills in what `app` describes. Throws UsageError, also for an option given as "", which must not pass for one left
+/// out, or Answer.
+void parseArguments(CLI::App& app, int argc, const char* const* argv);
+
+} // namespace render
