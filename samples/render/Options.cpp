@@ -41,7 +41,8 @@ Exit status
 /// The options as typed.
 struct Typed {
   std::string scene, camera, eye, target, fov, sun, size, supersample, profile, technique, view, slices, samples,
-      rowStep, tree, filter, medium, shadowSize, cascades, frames, repeat, context, stats, exposure;
+      rowStep, tree, breakThreshold, bendThreshold, leastWeight, filter, medium, shadowSize, cascades, frames, repeat,
+      context, stats, exposure;
   std::vector<std::string> out;
   bool reversedDepth = false;
 };
@@ -120,6 +121,15 @@ void readView(const Typed& typed, Options& options) {
   options.lookAt = lookAt;
 }
 
+// A threshold, from above 0 or from 0 on.
+std::optional<float> parseThreshold(const std::string& option, const std::string& value, bool zero, double high) {
+  if (value.empty()) return std::nullopt;
+  const double number = parseFinite(option, value, value);
+  if (number < 0 || (number == 0 && !zero) || number > high)
+    failUsage(option, value, fmt::format("must be {} 0, at most {}", zero ? "at least" : "above", high));
+  return static_cast<float>(number);
+}
+
 tyndall::View parseView(const std::string& name) {
   const auto* const found = std::find(kViews.begin(), kViews.end(), name);
   if (found == kViews.end()) failUsage("--view", name, fmt::format("must be one of {}", fmt::join(kViews, ", ")));
@@ -134,6 +144,9 @@ void readQuality(const Typed& typed, Options& options) {
   if (!typed.samples.empty()) options.samples = parseInt("--samples", typed.samples, 64, 8192);
   if (options.samples.value_or(64) % 64 != 0) failUsage("--samples", typed.samples, "must be a multiple of 64");
   if (!typed.rowStep.empty()) options.rowStep = parseInt("--row-step", typed.rowStep, 1, 8);
+  options.breakThreshold = parseThreshold("--break-threshold", typed.breakThreshold, false, 1e6);
+  options.bendThreshold = parseThreshold("--bend-threshold", typed.bendThreshold, false, 1e6);
+  options.leastWeight = parseThreshold("--least-weight", typed.leastWeight, true, 1);
   if (!typed.tree.empty() && typed.tree != "on" && typed.tree != "off")
     failUsage("--tree", typed.tree, "must be on or off");
   options.minMaxTree = typed.tree != "off";
@@ -194,6 +207,12 @@ void addOptions(CLI::App& app, Typed& typed) {
       ->type_name("N");
   app.add_option("--tree", typed.tree, "skip along rows by their min/max tree: on (default) or off")
       ->type_name("SWITCH");
+  app.add_option("--break-threshold", typed.breakThreshold, "change of distance that counts as a depth break")
+      ->type_name("X");
+  app.add_option("--bend-threshold", typed.bendThreshold, "bend of the inscatter that is marched more finely")
+      ->type_name("X");
+  app.add_option("--least-weight", typed.leastWeight, "bilateral weight under which a pixel is marched by itself")
+      ->type_name("X");
   app.add_option("--filter", typed.filter, "of the shadow map: nearest (default) or bilinear")->type_name("NAME");
   app.add_option("--medium", typed.medium, "the medium, instead of the scene's")->type_name("M.json");
   app.add_option("--shadow-size", typed.shadowSize, "texels per side of a shadow map (default 4096)")->type_name("N");

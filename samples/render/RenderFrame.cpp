@@ -46,6 +46,9 @@ tyndall::Settings settingsOf(const Options& options) {
   settings.samples = options.samples.value_or(settings.samples);
   settings.rowStep = options.rowStep.value_or(settings.rowStep);
   settings.minMaxTree = options.minMaxTree;
+  settings.breakThreshold = options.breakThreshold.value_or(settings.breakThreshold);
+  settings.bendThreshold = options.bendThreshold.value_or(settings.bendThreshold);
+  settings.leastWeight = options.leastWeight.value_or(settings.leastWeight);
   return settings;
 }
 

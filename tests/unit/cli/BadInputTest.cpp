@@ -53,6 +53,11 @@ TEST_CASE("tyndall-render refuses wrong usage with exit code 2") {
   checkUsageError({""}, "SCENE");
   checkUsageError({"triangle.gltf", "--profile", "fast"}, "--profile fast");
   checkUsageError({"triangle.gltf", "--technique", "radial-blur"}, "--technique radial-blur");
+  checkUsageError({"triangle.gltf", "--row-step", "9"}, "--row-step 9: must be a whole number from 1 to 8");
+  checkUsageError({"triangle.gltf", "--tree", "yes"}, "--tree yes: must be on or off");
+  checkUsageError({"triangle.gltf", "--break-threshold", "0"}, "--break-threshold 0: must be above 0");
+  checkUsageError({"triangle.gltf", "--bend-threshold", "nan"}, "--bend-threshold nan: \"nan\" is not a finite number");
+  checkUsageError({"triangle.gltf", "--least-weight", "1.5"}, "--least-weight 1.5: must be at least 0, at most 1");
   checkUsageError({"triangle.gltf", "--view", "wireframe"}, "--view wireframe: must be one of composite, slices, ");
   checkUsageError({"triangle.gltf", "--filter", "cubic"}, "--filter cubic");
   checkUsageError({"triangle.gltf", "--context", "vulkan"}, "--context vulkan");
