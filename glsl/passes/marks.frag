@@ -1,6 +1,6 @@
 // Marks: which samples are marched; the others are interpolated between them (Yusov 2013, "Sample classification").
 // Reads sampleEnds. Writes marks: slices x samples / 64, RGBA16, four masks of 16 samples (lib/bits.glsl): the first
-// of each segment, both sides of every break, the slice's last sample, and every second or fourth near an epipole.
+// of each segment, both sides of every break, creases, the slice's last sample, and every second or fourth near an epipole.
 #include "shared.glsl"
 #include "lib/bits.glsl"
 #include "lib/slices.glsl"
@@ -23,7 +23,7 @@ void main() {
     int index = first + k;
     float after = index + 1 < samples ? texelFetch(sampleEnds, ivec2(slice, index + 1), 0).r : -1.0;
     bool broken = low >= 0.0 && high >= 0.0 && isBreak(before, low, high, after);
-    if (k > 0 && (broken || carried || index == samples) && index <= samples) masks[(k - 1) >> 4] |= 1 << ((k - 1) & 15);
+    if (k > 0 && (broken || carried || isCrease(before, low, high) || index == samples) && index <= samples) masks[(k - 1) >> 4] |= 1 << ((k - 1) & 15);
     carried = broken;
     before = low;
     low = high;

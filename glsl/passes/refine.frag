@@ -1,7 +1,7 @@
 // Refine: more march samples where the inscatter itself bends. Between regular march samples that a line through their
-// neighbours predicts, interpolation is good enough, unless a break lies between, beside which a shaft may end unseen;
-// elsewhere every fourth sample is marched, or every second one. Not where breaks have filled a segment already: there it
-// is the ends that bend the inscatter. Slices too short to tell are refined.
+// neighbours predicts, interpolation is good enough; elsewhere every fourth sample is marched, or every second one. Not
+// where breaks have filled a segment already: there it is the ends that bend the inscatter. Slices too short to tell are
+// refined.
 // Reads marks and marched. Writes refined marks: slices x samples / 64, RGBA16, as marks.frag does.
 #include "shared.glsl"
 #include "lib/slices.glsl"
@@ -29,8 +29,7 @@ void main() {
     float most = max(first + s > 0 ? bend(a, b, c) : 0.0, first + s + 2 <= last ? bend(b, c, d) : 0.0);
     if (last < 2) most = 1.0;
     int valid = (1 << clamp(samples - 16 * (first + s), 0, 16)) - 1;
-    int marched = popcount(masks[s]), finer = most > 4.0 * thresholds.z ? 0x5555 : most > thresholds.z || marched > 1 ? 0x1111 : 0;
-    if (marched < kCrowded) masks[s] |= finer & valid;
+    if (most > thresholds.z && popcount(masks[s]) < kCrowded) masks[s] |= (most > 4.0 * thresholds.z ? 0x5555 : 0x1111) & valid;
     a = b;
     b = c;
     c = d;

@@ -194,7 +194,8 @@ struct Settings {
   int rowStep = 1;   ///< Tree, Epipolar: shadow-map texels from one sample of a row to the next, 1 to 8
   bool minMaxTree =
       true; ///< Tree, Epipolar: skip along rows by their min/max tree; off: texel by texel, for measurements
-  float breakThreshold = 0.04F; ///< Epipolar: relative change of distance that counts as a depth break, > 0
+  float breakThreshold = 0.04F; ///< Epipolar: relative change of distance that counts as a depth break, > 0; an
+                                ///< eighth of it, from a straight line, as a crease
   float bendThreshold =
       0.02F; ///< Epipolar: relative bend of the inscatter along a slice that is marched more finely, > 0
   float leastWeight = 0.01F; ///< Epipolar: bilateral weight under which a pixel is marched by itself, 0 to 1
