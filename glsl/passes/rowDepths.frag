@@ -1,6 +1,6 @@
 // Row depths: the shadow map along each slice, one texel a step, four steps a fragment (Chen 2011, 3.2).
 // Reads the slice table and the shadow map (glass map) of one view. Writes rowDepths: slices x texels / 4, RGBA16 or
-// RGBA32F, coded depths.
+// RGBA32F, coded depths; what lies behind a row's end is not read.
 #include "shared.glsl"
 #include "lib/slices.glsl"
 #include "lib/shadowMap.glsl"
@@ -41,11 +41,6 @@ vec2 codedBounds(vec2 p, int view) {
 
 void main() {
   int slice = int(gl_FragCoord.x), first = 4 * int(gl_FragCoord.y), view = march.x;
-  int last = (max(int(texelFetch(sliceTable, ivec2(slice, march.y + 1), 0).x), 1) - 1) | 15;
-  if (first > last) { // behind the row's last node: never read by itself, but part of the coarse nodes
-    outDepths = vec4(rowCode.z);
-    return;
-  }
   vec4 row = texelFetch(sliceTable, ivec2(slice, march.y), 0);
   vec2 p = row.xy + row.zw * (float(first) + 0.5);
   vec2 a = codedBounds(p, view), b = codedBounds(p + row.zw, view);

@@ -1,11 +1,17 @@
 // Row nodes: min and max of sixteen texels of each row, the finest level of the tree (level 2).
-// Reads rowDepths. Writes rowNodes: slices x texels / 16, RG.
+// Reads the slice table and rowDepths. Writes rowNodes: slices x texels / 16, RG; behind a row's end with bounds that add
+// nothing to a coarser node's.
 #include "shared.glsl"
+#include "lib/slices.glsl"
 uniform sampler2D rowDepths;
 
 layout(location = 0) out vec4 outBounds;
 
 void main() {
+  if (16 * int(gl_FragCoord.y) >= rowTexels(int(gl_FragCoord.x))) {
+    outBounds = rowCode.w > 0.0 ? vec4(1.0, 0.0, 0.0, 0.0) : vec4(3.4e38, -3.4e38, 0.0, 0.0);
+    return;
+  }
   ivec2 at = ivec2(int(gl_FragCoord.x), 4 * int(gl_FragCoord.y));
   vec4 a = texelFetch(rowDepths, at, 0), b = texelFetch(rowDepths, at + ivec2(0, 1), 0);
   vec4 c = texelFetch(rowDepths, at + ivec2(0, 2), 0), d = texelFetch(rowDepths, at + ivec2(0, 3), 0);

@@ -1,17 +1,27 @@
-// Strips: for the extra march samples, one rectangle per 64 slices, as high as the fullest of them needs.
-// Reads extraOffsets. Draws 6 vertices an instance; the target is slices x samples / 4.
+// Strips: one rectangle per 64 slices, as high as the fullest of them needs, in a target of slices x fragments.
+// Reads, for the rows (STRIPS_OF_ROWS 1: four texels a fragment), the slice table, or, for the extra march samples (four
+// a fragment), extraOffsets. Draws 6 vertices an instance.
 #include "shared.glsl"
 
+#if STRIPS_OF_ROWS
+#include "lib/slices.glsl"
+
+float fragmentsOf(int slice) { return float(rowTexels(slice) / 4); }
+float room() { return float(grid.z / 4); }
+#else
 uniform sampler2D extraOffsets;
+
+float fragmentsOf(int slice) { return texelFetch(extraOffsets, ivec2(slice, grid.y / 64), 0).r; }
+float room() { return float(grid.y / 4); }
+#endif
 
 void main() {
   const int kWidth = 64;
-  int last = grid.y / 64;
   float rows = 0.0;
   for (int i = 0; i < kWidth; ++i)
-    rows = max(rows, texelFetch(extraOffsets, ivec2(min(kWidth * gl_InstanceID + i, grid.x - 1), last), 0).r);
+    rows = max(rows, fragmentsOf(min(kWidth * gl_InstanceID + i, grid.x - 1)));
   bool right = gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4;
   bool top = gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5;
   vec2 corner = vec2(kWidth * (gl_InstanceID + (right ? 1 : 0)), top ? rows : 0.0);
-  gl_Position = vec4(2.0 * corner / vec2(grid.x, grid.y / 4) - 1.0, 0.0, 1.0);
+  gl_Position = vec4(2.0 * corner / vec2(grid.x, room()) - 1.0, 0.0, 1.0);
 }

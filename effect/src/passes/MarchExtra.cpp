@@ -23,9 +23,9 @@ Status run(SliceContext& context, const In& in, Out& out) {
   rows::bind(context, in.rows);
   setBlend(context.pass, in.view == 0 ? Blend::Replace : Blend::AddAll);
   if (Status s = attachTargets(context, out); !s) return s;
-  const int instances = (context.slices.count + 63) / 64;
   const bool ok = context.recorder.runCounted(context.inputs.name + " march extra", [&] {
-    return drawStrips(context.pass, "passes/strips.vert", instances, "passes/marchExtra.frag", context.definitions);
+    return drawStrips(context.pass, "passes/strips.vert", context.slices.count, "passes/marchExtra.frag",
+                      context.definitions);
   });
   for (gl::Enum i = 1; context.isColoured() && i < 3; ++i) // other passes draw into one target of another size
     context.gl.FramebufferTexture2D(gl::DRAW_FRAMEBUFFER, gl::COLOR_ATTACHMENT0 + i, gl::TEXTURE_2D, 0, 0);

@@ -29,7 +29,7 @@ void setBlend(const PassContext& context, Blend blend);
 bool drawFullScreen(const PassContext& context, const std::string& fragment, const gl::Definitions& definitions);
 
 /// Draws instances of the six vertices of a vertex shader of glsl/passes.
-bool drawStrips(const PassContext& context, const std::string& vertex, int instances, const std::string& fragment,
+bool drawStrips(const PassContext& context, const std::string& vertex, int slices, const std::string& fragment,
                 const gl::Definitions& definitions);
 
 } // namespace tyndall::passes

@@ -18,6 +18,15 @@ Status target(SliceContext& context, Target which, int height, int drawn, gl::Ui
   return {};
 }
 
+Status drawDepths(SliceContext& context) {
+  gl::Definitions definitions = context.definitions;
+  definitions.emplace_back("STRIPS_OF_ROWS", 1);
+  const bool ok = context.recorder.run(context.inputs.name + " rows", [&] {
+    return drawStrips(context.pass, "passes/strips.vert", context.slices.count, "passes/rowDepths.frag", definitions);
+  });
+  return ok ? Status{} : context.shaderError();
+}
+
 } // namespace
 
 Status run(SliceContext& context, const In& in, Out& out) {
@@ -29,7 +38,7 @@ Status run(SliceContext& context, const In& in, Out& out) {
   context.bindMaps();
   setBlend(context.pass, Blend::Replace);
   if (Status s = target(context, Target::RowDepths, room / 4, drawn / 4, out.depths); !s) return s;
-  if (Status s = context.draw("rows", "passes/rowDepths.frag", context.definitions); !s) return s;
+  if (Status s = drawDepths(context); !s) return s;
   if (levels == 0) {
     context.recorder.skip(context.inputs.name + " tree", "settings.minMaxTree is false");
     out.tree = out.depths; // bound, never read
