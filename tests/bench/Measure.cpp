@@ -222,7 +222,10 @@ private:
     report_(c.result.technique.name + " passes", 1);
     if (c.result.technique.group == Group::Exact) // one pass a light: what it takes is known
       return;
-    guarded(c.result, [&] { c.result.passes = c.runner->timedPasses(stage_->composited()); });
+    guarded(c.result, [&] {
+      c.result.counts = c.runner->counts(stage_->composited());
+      c.result.passes = c.runner->timedPasses(stage_->composited());
+    });
   }
 
   const Setup& setup_;

@@ -48,6 +48,10 @@ std::string todayUtc() {
 
 std::string percent(double value) { return std::isfinite(value) ? fmt::format("{:.3g} %", 100 * value) : "-"; }
 
+std::string visitsOf(const Result& r) {
+  return r.counts && r.counts->visitsPerRay ? fmt::format("{:.1f}", *r.counts->visitsPerRay) : "-";
+}
+
 /// JSON has no infinity.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -72,17 +76,17 @@ void printTable(const std::vector<Result>& results) {
   for (const Result& r : results) {
     if (r.setup.label() != setup) {
       setup = r.setup.label();
-      fmt::print("\n{}  ({})\n{:<24}{:>10}{:>10}{:>10}{:>12}{:>12}{:>12}{:>9}\n", setup, r.driver, "technique",
-                 "median ms", "min", "max", "rRMSE", "p99", "max err", "MiB");
+      fmt::print("\n{}  ({})\n{:<24}{:>10}{:>10}{:>10}{:>12}{:>12}{:>12}{:>9}{:>12}\n", setup, r.driver, "technique",
+                 "median ms", "min", "max", "rRMSE", "p99", "max err", "MiB", "visits/ray");
     }
     if (!r.ok()) {
       fmt::print("{:<24}  {}\n", r.technique.name, r.failed.empty() ? "skipped: " + r.skipped : "FAILED: " + r.failed);
       continue;
     }
     const reference::ErrorMetrics& error = r.errors.at("exact");
-    fmt::print("{:<24}{:>10.2f}{:>10.2f}{:>10.2f}{:>12}{:>12}{:>12}{:>9.1f}\n", r.technique.name, r.median(), r.least(),
-               r.most(), percent(error.rRmse), percent(error.p99), percent(error.max),
-               static_cast<double>(r.bytes) / 1048576);
+    fmt::print("{:<24}{:>10.2f}{:>10.2f}{:>10.2f}{:>12}{:>12}{:>12}{:>9.1f}{:>12}\n", r.technique.name, r.median(),
+               r.least(), r.most(), percent(error.rRmse), percent(error.p99), percent(error.max),
+               static_cast<double>(r.bytes) / 1048576, visitsOf(r));
     for (const char* other : {"map", "scene"})
       if (const auto found = r.errors.find(other); found != r.errors.end())
         fmt::print("{:>53} {:>12}{:>12}{:>12}\n", std::string("against ") + other + "-exact",
@@ -161,6 +165,11 @@ Json resultOf(const Result& r) {
   json["ms"] = {{"median", r.median()}, {"min", r.least()}, {"max", r.most()}, {"runs", r.milliseconds}};
   json["bytes"] = r.bytes;
   json["peak_memory"] = r.peakMemory;
+  if (r.counts) json["rays"] = r.counts->rays;
+  if (r.counts && r.counts->visitsPerRay) {
+    json["visits_per_ray"] = *r.counts->visitsPerRay;
+    json["visits_estimate"] = *r.counts->visitsEstimate();
+  }
   for (const auto& [name, error] : r.errors)
     json["errors"][name] = {{"rrmse", number(error.rRmse)}, {"p99", number(error.p99)}, {"max", number(error.max)}};
   json["passes"] = passesOf(r);
@@ -171,7 +180,7 @@ Json resultOf(const Result& r) {
 
 void writeCsv(const std::filesystem::path& file, const std::vector<Result>& results) {
   std::string text = "series,x,scene,width,height,shadow_size,lights,density,context,technique,family,group,"
-                     "median_ms,min_ms,max_ms,runs,bytes,peak_memory";
+                     "median_ms,min_ms,max_ms,runs,bytes,peak_memory,rays,visits_per_ray,visits_estimate";
   for (const char* reference : {"exact", "map", "scene"})
     for (const char* metric : {"rrmse", "p99", "max"})
       text += fmt::format(",{}_{}", metric, reference);
@@ -184,6 +193,10 @@ void writeCsv(const std::filesystem::path& file, const std::vector<Result>& resu
     text += r.ok() ? fmt::format(",{},{},{},{},{},{}", r.median(), r.least(), r.most(), r.milliseconds.size(), r.bytes,
                                  r.peakMemory)
                    : ",,,,,,";
+    text += r.counts ? fmt::format(",{}", r.counts->rays) : ",";
+    text += r.counts && r.counts->visitsPerRay
+                ? fmt::format(",{},{}", *r.counts->visitsPerRay, *r.counts->visitsEstimate())
+                : ",,";
     for (const char* reference : {"exact", "map", "scene"}) {
       const auto found = r.errors.find(reference);
       text += found == r.errors.end()

@@ -16,7 +16,8 @@ struct Result {
   std::string failed;               ///< what went wrong; empty if nothing did
   std::vector<double> milliseconds; ///< of each timed run, in order
   std::vector<tyndall::PassStatistics> passes;
-  std::uint64_t bytes = 0;                               ///< GL memory of the technique
+  std::uint64_t bytes = 0; ///< GL memory of the technique
+  std::optional<Counts> counts;
   std::uint64_t peakMemory = 0;                          ///< of the process while the setup ran, bytes
   std::map<std::string, reference::ErrorMetrics> errors; ///< against "exact", "map", "scene"
 

@@ -111,6 +111,11 @@ std::vector<std::string> allTechniques() {
   return names;
 }
 
+std::optional<double> Counts::visitsEstimate() const {
+  if (!visitsPerRay) return std::nullopt;
+  return *visitsPerRay * static_cast<double>(rays);
+}
+
 namespace {
 
 /// Two effects, so that what times the passes does not slow what is timed as a whole.
@@ -130,6 +135,16 @@ public:
     return timed->statistics().passes;
   }
   std::uint64_t bytes() override { return effect_->statistics().bytes; }
+  std::optional<Counts> counts(const tyndall::Frame& frame) override {
+    const std::unique_ptr<tyndall::Effect> counting = create(tyndall::PassTiming::Off);
+    renderBy(*counting, frame);
+    const tyndall::Statistics statistics = counting->statistics();
+    Counts counts{statistics.marchedSamples, statistics.fixupPixels, {}};
+    if (settings_.technique == tyndall::Technique::Exact) return counts;
+    renderBy(*counting, frame, tyndall::View::NodeVisits);
+    counts.visitsPerRay = counting->statistics().visitsPerRay;
+    return counts;
+  }
 
 private:
   std::unique_ptr<tyndall::Effect> create(tyndall::PassTiming timing) const {
@@ -137,8 +152,9 @@ private:
     if (!created.effect) throw host::Error("effect: " + created.status.message);
     return std::move(created.effect);
   }
-  void renderBy(tyndall::Effect& effect, tyndall::Frame frame) const {
+  void renderBy(tyndall::Effect& effect, tyndall::Frame frame, tyndall::View view = tyndall::View::Composite) const {
     frame.settings = settings_;
+    frame.settings.view = view;
     const tyndall::Status status = effect.render(frame);
     if (!status) throw host::Error("effect: " + status.message);
   }

@@ -3,6 +3,7 @@
 
 #include "baselines/Baseline.h"
 
+#include <optional>
 #include <string>
 #include <tyndall/tyndall.h>
 #include <vector>
@@ -30,6 +31,16 @@ std::string techniqueHelp();
 /// Every technique at every quality that the report shows.
 std::vector<std::string> allTechniques();
 
+/// What a frame takes, in numbers that no machine changes.
+struct Counts {
+  std::uint64_t rays = 0;             ///< integrated
+  std::uint64_t fixupPixels = 0;      ///< among them
+  std::optional<double> visitsPerRay; ///< nodes and groups of texels that a pixel's ray looks at, of the first light
+
+  /// Visits per ray times rays: march samples see what pixels see only about.
+  std::optional<double> visitsEstimate() const;
+};
+
 /// Renders frames by one technique.
 class Runner {
 public:
@@ -40,6 +51,8 @@ public:
   /// Renders with each pass timed.
   virtual std::vector<tyndall::PassStatistics> timedPasses(const tyndall::Frame& frame) = 0;
   virtual std::uint64_t bytes() = 0;
+  /// Renders to count; none where nothing is counted.
+  virtual std::optional<Counts> counts(const tyndall::Frame& /*frame*/) { return std::nullopt; }
 };
 
 /// Needs a current context, whose GL functions the loader resolves.
