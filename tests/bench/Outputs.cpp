@@ -94,6 +94,19 @@ void printTable(const std::vector<Result>& results) {
   }
 }
 
+void printFloors(const std::vector<Result>& results) {
+  for (const Result& r : results) {
+    if (r.floors.empty()) continue;
+    fmt::print("\n{}: {} against its floors\n{:<24}{:>10}{:>10}{:>9}\n", r.setup.label(), r.technique.name, "pass",
+               "ms", "floor ms", "ratio");
+    std::vector<PassFloor> rows = r.floors;
+    rows.push_back(sumOf(r.floors));
+    for (const PassFloor& row : rows)
+      fmt::print("{:<24}{:>10.3f}{:>10.3f}{:>8.2f}x\n", row.name, row.milliseconds, row.floor,
+                 row.milliseconds / row.floor);
+  }
+}
+
 void printEqualErrors(const std::vector<EqualError>& rows) {
   if (rows.empty()) return;
   fmt::print("\nSpeed at equal error\n{:<40}{:<20}{:<10}{:>9}{:>12}  {}\n", "setup", "profile", "against", "ms",
@@ -146,6 +159,14 @@ Json passesOf(const Result& result) {
   return passes;
 }
 
+Json floorsOf(const Result& result) {
+  const PassFloor sum = sumOf(result.floors);
+  Json json = {{"ms", sum.milliseconds}, {"floor_ms", sum.floor}, {"ratio", sum.milliseconds / sum.floor}};
+  for (const PassFloor& pass : result.floors)
+    json["passes"].push_back({{"name", pass.name}, {"ms", pass.milliseconds}, {"floor_ms", pass.floor}});
+  return json;
+}
+
 Json resultOf(const Result& r) {
   Json json = {{"series", r.setup.series},
                {"x", r.setup.x},
@@ -173,6 +194,7 @@ Json resultOf(const Result& r) {
   for (const auto& [name, error] : r.errors)
     json["errors"][name] = {{"rrmse", number(error.rRmse)}, {"p99", number(error.p99)}, {"max", number(error.max)}};
   json["passes"] = passesOf(r);
+  if (!r.floors.empty()) json["floors"] = floorsOf(r);
   return json;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -30,6 +31,11 @@ ToolResult runTool(const std::string& arguments) {
     result.output += buffer.data();
   result.exitCode = WEXITSTATUS(pclose(pipe));
   return result;
+}
+
+nlohmann::json readJson(const fs::path& file) {
+  std::ifstream stream(file);
+  return nlohmann::json::parse(stream);
 }
 
 class Folder {
@@ -107,6 +113,34 @@ TEST_CASE("a case that fails is reported and the rest go on") {
   CHECK(result.output.find("llvmpipe") != std::string::npos);
   CHECK(fs::exists(folder.path() / "bench.csv"));
   CHECK(fs::exists(folder.path() / "bench.json"));
+}
+
+TEST_CASE("every pass that ran has a floor, and only those, and visits are counted where there is a tree") {
+  const Folder folder;
+  const ToolResult result = runTool("--scenes nave,stage --sizes 96x64 --shadow-sizes 128 --floors --techniques "
+                                    "exact,high,performance,tree:64,fixed:16 --out " +
+                                    folder.path().string());
+  INFO(result.output);
+  REQUIRE(result.exitCode == 0);
+  CHECK(result.output.find("high against its floors") != std::string::npos);
+  for (const nlohmann::json& r : readJson(folder.path() / "bench.json").at("results")) {
+    CAPTURE(r.at("scene"), r.at("technique"));
+    const bool isOurs = r.at("group") == "ours", hasTree = isOurs || r.at("family") == "tree";
+    CHECK(r.contains("visits_per_ray") == hasTree);
+    if (hasTree) CHECK(r.at("visits_estimate") > r.at("visits_per_ray"));
+    REQUIRE(r.contains("floors") == (isOurs && r.at("scene") == "nave")); // of several lights there are none
+    if (!r.contains("floors")) continue;
+    std::vector<std::string> ran, floors;
+    for (const nlohmann::json& pass : r.at("passes"))
+      if (!pass.contains("skipped")) ran.push_back(pass.at("name"));
+    for (const nlohmann::json& pass : r.at("floors").at("passes")) {
+      floors.push_back("light 0 " + pass.at("name").get<std::string>());
+      CHECK(pass.at("floor_ms") > 0);
+      CHECK(pass.at("ms") > 0);
+    }
+    CHECK(floors == ran);
+    CHECK(ran.size() >= 11);
+  }
 }
 
 TEST_CASE("a reference is kept, and made anew when its file is damaged or of another version") {
