@@ -62,6 +62,8 @@ struct Effect::State {
   Status prepareColour(const Frame& frame);
   Status drawView(const Frame& frame, const FrameTextures& textures, const Destination& destination);
   Status drawDifference(const Frame& frame, const FrameTextures& textures, passes::view::In& in);
+  Status drawMean(const Frame& frame, gl::Uint image, int channels, gl::Uint& mean);
+  Status readVisits(const Frame& frame, gl::Uint image);
   Status clearView(const Frame& frame);
   Status drawLight(const Frame& frame, const Light* light, const FrameTextures::Shadow& map,
                    const Destination& destination, bool first, const std::string& name);
@@ -125,8 +127,9 @@ Status Effect::render(const Frame& frame) {
 
 Statistics Effect::statistics() {
   std::uint64_t bytes = state_->targets.bytes() + sizeof(blocks::FrameBlock) + sizeof(blocks::LightBlock);
-  return {state_->recorder.collect(), bytes, state_->programs.size(), state_->recorder.fixupPixels(),
-          state_->recorder.marched()};
+  return {state_->recorder.collect(), bytes,
+          state_->programs.size(),    state_->recorder.fixupPixels(),
+          state_->recorder.marched(), state_->recorder.visitsPerRay()};
 }
 
 Status Effect::compileAll() {
@@ -237,6 +240,8 @@ Status Effect::State::drawView(const Frame& frame, const FrameTextures& textures
   if (showsSlices(frame)) in.image = targets.get(Target::View, frame.width, frame.height);
   if (in.view == View::Difference)
     if (Status s = drawDifference(frame, textures, in); !s) return s;
+  if (in.view == View::NodeVisits)
+    if (Status s = readVisits(frame, in.image); !s) return s;
   if (Status s = attach(frame, frame.colour, 0); !s) return s;
   return recorder.run("view", [&] { return passes::view::run(passContext(), in); }) ? Status{} : shaderError();
 }
@@ -246,15 +251,29 @@ Status Effect::State::drawDifference(const Frame& frame, const FrameTextures& te
   Frame exactFrame = frame;
   exactFrame.settings.technique = Technique::Exact;
   in.exact = targets.get(Target::ViewExact, frame.width, frame.height);
-  in.mean = targets.get(Target::ViewMean, 1, 1);
-  const gl::Uint rowMeans = targets.get(Target::ViewRowMeans, frame.height, 1);
-  if (!in.exact || !in.mean || !rowMeans)
-    return {StatusCode::OutOfMemory, "GL could not allocate a texture for Frame::settings.view"};
+  if (!in.exact) return {StatusCode::OutOfMemory, "GL could not allocate a texture for Frame::settings.view"};
   if (Status s = drawLights(exactFrame, textures, {in.exact, 0, true}); !s) return s;
-  if (Status s = attach(frame, in.exact, 0); !s) return s; // without a second target and a stencil
-  const passes::view::MeanIn mean{in.exact, frame.height, rowMeans, in.mean};
-  return recorder.run("view mean", [&] { return passes::view::runMean(passContext(), mean); }) ? Status{}
-                                                                                               : shaderError();
+  return drawMean(frame, in.exact, 3, in.mean);
+}
+
+Status Effect::State::drawMean(const Frame& frame, gl::Uint image, int channels, gl::Uint& mean) {
+  mean = targets.get(Target::ViewMean, 1, 1);
+  const gl::Uint rowMeans = targets.get(Target::ViewRowMeans, frame.height, 1);
+  if (!mean || !rowMeans) return {StatusCode::OutOfMemory, "GL could not allocate a texture for Frame::settings.view"};
+  if (Status s = attach(frame, image, 0); !s) return s; // without a second target and a stencil
+  const passes::view::MeanIn in{image, channels, frame.height, rowMeans, mean};
+  return recorder.run("view mean", [&] { return passes::view::runMean(passContext(), in); }) ? Status{} : shaderError();
+}
+
+// Waits for the GPU, which a view to look at may.
+Status Effect::State::readVisits(const Frame& frame, gl::Uint image) {
+  gl::Uint mean = 0;
+  if (Status s = drawMean(frame, image, 1, mean); !s) return s;
+  gl::Float visits = 0;
+  passes::bindTexture(passContext(), gl::Unit::ViewMean, gl::TEXTURE_2D, mean);
+  gl.GetTexImage(gl::TEXTURE_2D, 0, gl::RED, gl::FLOAT, &visits);
+  recorder.countVisits(visits);
+  return {};
 }
 
 Status Effect::State::attach(const Frame& frame, gl::Uint first, gl::Uint second, bool withStencil) {

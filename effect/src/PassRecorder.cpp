@@ -6,6 +6,7 @@ void PassRecorder::beginFrame() {
   passes_.clear();
   fixupPixels_ = 0;
   marched_ = 0;
+  visitsPerRay_ = 0;
   counts_.clear();
 }
 

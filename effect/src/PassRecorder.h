@@ -18,6 +18,8 @@ public:
   void countFixup(std::uint64_t pixels) { fixupPixels_ += pixels; }
   std::uint64_t fixupPixels() const { return fixupPixels_; }
   void countMarched(std::uint64_t rays) { marched_ += rays; }
+  void countVisits(double perRay) { visitsPerRay_ = perRay; }
+  double visitsPerRay() const { return visitsPerRay_; }
   /// Rays integrated in the frame; waits for the queries of runCounted().
   std::uint64_t marched();
 
@@ -72,6 +74,7 @@ private:
   std::vector<Timed> passes_;
   std::uint64_t fixupPixels_ = 0;
   std::uint64_t marched_ = 0;
+  double visitsPerRay_ = 0;
   std::vector<gl::Query> counts_;
   bool counting_ = false;
 };

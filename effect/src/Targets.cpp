@@ -41,8 +41,8 @@ constexpr Row kRows[] = {
     {"row tree", kRg32, kUnorm2, "slices x nodes", "all levels of the min/max tree"},
     {"view", kRgba32, kRgba32, "image", "debug views of slices: what is counted or shown, until all lights are done"},
     {"view exact", kRgba32, kRgba32, "image", "debug view of the difference: exact's inscatter"},
-    {"view row means", kR32, kR32, "image height x 1", "the same: its mean over each row of pixels"},
-    {"view mean", kR32, kR32, "1 x 1", "the same: its mean"},
+    {"view row means", kR32, kR32, "image height x 1", "the same, or visits: mean over each row of pixels"},
+    {"view mean", kR32, kR32, "1 x 1", "the same: their mean"},
 };
 
 } // namespace

@@ -222,7 +222,22 @@ private:
     report_(c.result.technique.name + " passes", 1);
     if (c.result.technique.group == Group::Exact) // one pass a light: what it takes is known
       return;
-    guarded(c.result, [&] { c.result.passes = c.runner->timedPasses(stage_->composited()); });
+    guarded(c.result, [&] {
+      c.result.counts = c.runner->counts(stage_->composited());
+      if (!addFloors(c)) c.result.passes = c.runner->timedPasses(stage_->composited(), 1, [] {});
+    });
+  }
+
+  /// False unless the floors are wanted and there are any; else the passes are timed, too.
+  bool addFloors(Case& c) {
+    tyndall::Frame frame = stage_->composited();
+    if (!options_.floors || c.result.technique.group != Group::Ours) return false;
+    frame.settings = settingsFor(c.result.technique);
+    if (!reasonAgainstFloors(frame).empty()) return false;
+    Floors floors(frame, *c.result.counts);
+    c.result.passes = c.runner->timedPasses(frame, options_.runs, [&floors] { floors.run(); });
+    c.result.floors = floors.beside(c.result.passes);
+    return true;
   }
 
   const Setup& setup_;

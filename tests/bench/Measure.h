@@ -13,6 +13,7 @@ struct MeasureOptions {
   int runs = 5;
   bool mapExact = false; ///< judge against it as well
   bool sceneExact = false;
+  bool floors = false;                     ///< of the passes of ours
   const std::atomic<bool>* stop = nullptr; ///< set by Ctrl-C: end soon, keep what is finished
 };
 

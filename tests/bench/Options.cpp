@@ -21,7 +21,7 @@ constexpr const char* kAllFolder = "bench-report";
 /// The options as typed; lists are separated by commas.
 struct Typed {
   std::string scenes, techniques, sizes, shadowSizes, lights, densities, contexts, references, runs, out, cache;
-  bool quick = false, all = false, plots = false, scaling = false;
+  bool quick = false, all = false, plots = false, scaling = false, floors = false;
 };
 
 std::vector<std::string> splitList(const std::string& option, const std::string& value) {
@@ -139,6 +139,7 @@ void applyAll(Typed& typed) {
   typed.techniques = "all";
   typed.references = "map,scene";
   typed.scaling = true;
+  typed.floors = true;
 }
 
 Options fromTyped(Typed typed) {
@@ -160,6 +161,7 @@ Options fromTyped(Typed typed) {
     for (Setup& setup : planScaling())
       options.setups.push_back(std::move(setup));
   options.runs = render::parseInt("--runs", typed.runs, kLeastRuns, kMostRuns);
+  options.floors = typed.floors;
   readReferences(typed, options);
   readOutputs(typed, options);
   return options;
@@ -179,6 +181,7 @@ void addOptions(CLI::App& app, Typed& typed) {
   app.add_option("--out", typed.out, "a folder for bench.csv, bench.json and plots")->type_name("FOLDER");
   app.add_option("--cache", typed.cache, "a folder for slow references (default: references/ in --out)")
       ->type_name("FOLDER");
+  app.add_flag("--floors", typed.floors, "what each pass of ours would cost if it only read and wrote its bytes");
   app.add_flag("--scaling", typed.scaling, "the scaling series, too");
   app.add_flag("--plots", typed.plots, "draw them (needs python3 with matplotlib)");
   app.add_flag("--quick", typed.quick, "small pictures of two scenes, within a minute; overrides the lists");

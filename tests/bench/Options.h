@@ -12,6 +12,7 @@ struct Options {
   int runs = 5;
   bool mapExact = false;
   bool sceneExact = false;
+  bool floors = false;
   bool plots = false;
   std::filesystem::path out;   ///< empty: print only
   std::filesystem::path cache; ///< empty: keep no references

@@ -48,6 +48,10 @@ std::string todayUtc() {
 
 std::string percent(double value) { return std::isfinite(value) ? fmt::format("{:.3g} %", 100 * value) : "-"; }
 
+std::string visitsOf(const Result& r) {
+  return r.counts && r.counts->visitsPerRay ? fmt::format("{:.1f}", *r.counts->visitsPerRay) : "-";
+}
+
 /// JSON has no infinity.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -72,21 +76,34 @@ void printTable(const std::vector<Result>& results) {
   for (const Result& r : results) {
     if (r.setup.label() != setup) {
       setup = r.setup.label();
-      fmt::print("\n{}  ({})\n{:<24}{:>10}{:>10}{:>10}{:>12}{:>12}{:>12}{:>9}\n", setup, r.driver, "technique",
-                 "median ms", "min", "max", "rRMSE", "p99", "max err", "MiB");
+      fmt::print("\n{}  ({})\n{:<24}{:>10}{:>10}{:>10}{:>12}{:>12}{:>12}{:>9}{:>12}\n", setup, r.driver, "technique",
+                 "median ms", "min", "max", "rRMSE", "p99", "max err", "MiB", "visits/ray");
     }
     if (!r.ok()) {
       fmt::print("{:<24}  {}\n", r.technique.name, r.failed.empty() ? "skipped: " + r.skipped : "FAILED: " + r.failed);
       continue;
     }
     const reference::ErrorMetrics& error = r.errors.at("exact");
-    fmt::print("{:<24}{:>10.2f}{:>10.2f}{:>10.2f}{:>12}{:>12}{:>12}{:>9.1f}\n", r.technique.name, r.median(), r.least(),
-               r.most(), percent(error.rRmse), percent(error.p99), percent(error.max),
-               static_cast<double>(r.bytes) / 1048576);
+    fmt::print("{:<24}{:>10.2f}{:>10.2f}{:>10.2f}{:>12}{:>12}{:>12}{:>9.1f}{:>12}\n", r.technique.name, r.median(),
+               r.least(), r.most(), percent(error.rRmse), percent(error.p99), percent(error.max),
+               static_cast<double>(r.bytes) / 1048576, visitsOf(r));
     for (const char* other : {"map", "scene"})
       if (const auto found = r.errors.find(other); found != r.errors.end())
         fmt::print("{:>53} {:>12}{:>12}{:>12}\n", std::string("against ") + other + "-exact",
                    percent(found->second.rRmse), percent(found->second.p99), percent(found->second.max));
+  }
+}
+
+void printFloors(const std::vector<Result>& results) {
+  for (const Result& r : results) {
+    if (r.floors.empty()) continue;
+    fmt::print("\n{}: {} against its floors\n{:<24}{:>10}{:>10}{:>9}\n", r.setup.label(), r.technique.name, "pass",
+               "ms", "floor ms", "ratio");
+    std::vector<PassFloor> rows = r.floors;
+    rows.push_back(sumOf(r.floors));
+    for (const PassFloor& row : rows)
+      fmt::print("{:<24}{:>10.3f}{:>10.3f}{:>8.2f}x\n", row.name, row.milliseconds, row.floor,
+                 row.milliseconds / row.floor);
   }
 }
 
@@ -142,6 +159,14 @@ Json passesOf(const Result& result) {
   return passes;
 }
 
+Json floorsOf(const Result& result) {
+  const PassFloor sum = sumOf(result.floors);
+  Json json = {{"ms", sum.milliseconds}, {"floor_ms", sum.floor}, {"ratio", sum.milliseconds / sum.floor}};
+  for (const PassFloor& pass : result.floors)
+    json["passes"].push_back({{"name", pass.name}, {"ms", pass.milliseconds}, {"floor_ms", pass.floor}});
+  return json;
+}
+
 Json resultOf(const Result& r) {
   Json json = {{"series", r.setup.series},
                {"x", r.setup.x},
@@ -161,9 +186,15 @@ Json resultOf(const Result& r) {
   json["ms"] = {{"median", r.median()}, {"min", r.least()}, {"max", r.most()}, {"runs", r.milliseconds}};
   json["bytes"] = r.bytes;
   json["peak_memory"] = r.peakMemory;
+  if (r.counts) json["rays"] = r.counts->rays;
+  if (r.counts && r.counts->visitsPerRay) {
+    json["visits_per_ray"] = *r.counts->visitsPerRay;
+    json["visits_estimate"] = *r.counts->visitsEstimate();
+  }
   for (const auto& [name, error] : r.errors)
     json["errors"][name] = {{"rrmse", number(error.rRmse)}, {"p99", number(error.p99)}, {"max", number(error.max)}};
   json["passes"] = passesOf(r);
+  if (!r.floors.empty()) json["floors"] = floorsOf(r);
   return json;
 }
 
@@ -171,7 +202,7 @@ Json resultOf(const Result& r) {
 
 void writeCsv(const std::filesystem::path& file, const std::vector<Result>& results) {
   std::string text = "series,x,scene,width,height,shadow_size,lights,density,context,technique,family,group,"
-                     "median_ms,min_ms,max_ms,runs,bytes,peak_memory";
+                     "median_ms,min_ms,max_ms,runs,bytes,peak_memory,rays,visits_per_ray,visits_estimate";
   for (const char* reference : {"exact", "map", "scene"})
     for (const char* metric : {"rrmse", "p99", "max"})
       text += fmt::format(",{}_{}", metric, reference);
@@ -184,6 +215,10 @@ void writeCsv(const std::filesystem::path& file, const std::vector<Result>& resu
     text += r.ok() ? fmt::format(",{},{},{},{},{},{}", r.median(), r.least(), r.most(), r.milliseconds.size(), r.bytes,
                                  r.peakMemory)
                    : ",,,,,,";
+    text += r.counts ? fmt::format(",{}", r.counts->rays) : ",";
+    text += r.counts && r.counts->visitsPerRay
+                ? fmt::format(",{},{}", *r.counts->visitsPerRay, *r.counts->visitsEstimate())
+                : ",,";
     for (const char* reference : {"exact", "map", "scene"}) {
       const auto found = r.errors.find(reference);
       text += found == r.errors.end()

@@ -20,6 +20,7 @@ struct Machine {
 Machine thisMachine();
 
 void printTable(const std::vector<Result>& results);
+void printFloors(const std::vector<Result>& results);
 void printEqualErrors(const std::vector<EqualError>& rows);
 void printGrowths(const std::vector<Growth>& rows);
 

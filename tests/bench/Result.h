@@ -1,6 +1,7 @@
 // What one case measured.
 #pragma once
 
+#include "Floors.h"
 #include "Plan.h"
 #include "reference/Metrics.h"
 
@@ -16,7 +17,9 @@ struct Result {
   std::string failed;               ///< what went wrong; empty if nothing did
   std::vector<double> milliseconds; ///< of each timed run, in order
   std::vector<tyndall::PassStatistics> passes;
-  std::uint64_t bytes = 0;                               ///< GL memory of the technique
+  std::uint64_t bytes = 0; ///< GL memory of the technique
+  std::optional<Counts> counts;
+  std::vector<PassFloor> floors;                         ///< empty unless asked for and offered
   std::uint64_t peakMemory = 0;                          ///< of the process while the setup ran, bytes
   std::map<std::string, reference::ErrorMetrics> errors; ///< against "exact", "map", "scene"
 

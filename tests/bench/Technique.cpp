@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
+#include <gl/ReadBack.h>
 #include <scene/Error.h>
 #include <stdexcept>
 
@@ -111,7 +112,37 @@ std::vector<std::string> allTechniques() {
   return names;
 }
 
+tyndall::Settings settingsFor(const Technique& technique) {
+  using tyndall::Profile;
+  tyndall::Settings settings = tyndall::settingsOf(technique.family == "exact"         ? Profile::Reference
+                                                   : technique.family == "performance" ? Profile::Performance
+                                                   : technique.family == "balanced"    ? Profile::Balanced
+                                                                                       : Profile::High);
+  if (technique.family == "tree") settings.technique = tyndall::Technique::Tree;
+  if (!technique.parameters.empty()) settings.slices = technique.parameters[0];
+  if (technique.parameters.size() > 1) settings.samples = technique.parameters[1];
+  return settings;
+}
+
+std::optional<double> Counts::visitsEstimate() const {
+  if (!visitsPerRay) return std::nullopt;
+  return *visitsPerRay * static_cast<double>(rays);
+}
+
 namespace {
+
+/// Of frames with the same passes.
+std::vector<tyndall::PassStatistics> mediansOf(const std::vector<std::vector<tyndall::PassStatistics>>& frames) {
+  std::vector<tyndall::PassStatistics> passes = frames[0];
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    std::vector<double> times;
+    for (const auto& frame : frames)
+      times.push_back(frame.at(i).milliseconds);
+    std::sort(times.begin(), times.end());
+    passes[i].milliseconds = times[times.size() / 2];
+  }
+  return passes;
+}
 
 /// Two effects, so that what times the passes does not slow what is timed as a whole.
 class EffectRunner : public Runner {
@@ -123,13 +154,36 @@ public:
 
   std::string reasonAgainst(const tyndall::Frame& /*frame*/) const override { return {}; }
   void render(const tyndall::Frame& frame) override { renderBy(*effect_, frame); }
-  std::vector<tyndall::PassStatistics> timedPasses(const tyndall::Frame& frame) override {
+  std::vector<tyndall::PassStatistics> timedPasses(const tyndall::Frame& frame, int runs,
+                                                   const std::function<void()>& between) override {
     const std::unique_ptr<tyndall::Effect> timed = create(timing_);
-    renderBy(*timed, frame);
-    renderBy(*timed, frame);
-    return timed->statistics().passes;
+    renderBy(*timed, frame); // compiles
+    std::vector<std::vector<tyndall::PassStatistics>> all;
+    for (int run = 0; run < runs; ++run) {
+      renderBy(*timed, frame);
+      all.push_back(timed->statistics().passes);
+      between();
+    }
+    return mediansOf(all);
   }
   std::uint64_t bytes() override { return effect_->statistics().bytes; }
+  std::optional<Counts> counts(const tyndall::Frame& frame) override {
+    const std::unique_ptr<tyndall::Effect> counting = create(tyndall::PassTiming::Off);
+    renderBy(*counting, frame);
+    const tyndall::Statistics statistics = counting->statistics();
+    Counts counts;
+    counts.rays = statistics.marchedSamples;
+    counts.fixupPixels = statistics.fixupPixels;
+    if (settings_.technique == tyndall::Technique::Exact) return counts;
+    renderBy(*counting, frame, tyndall::View::NodeVisits);
+    counts.visitsPerRay = counting->statistics().visitsPerRay;
+    if (settings_.technique != tyndall::Technique::Epipolar) return counts;
+    renderBy(*counting, frame, tyndall::View::MarchSamples);
+    const std::vector<float> shown = host::readColour(frame.colour, frame.width, frame.height, 3);
+    for (std::size_t i = 0; i < shown.size(); i += 3)
+      counts.packedRays += 0.5 * shown[i] + shown[i + 1]; // red: breaks, green: bends
+    return counts;
+  }
 
 private:
   std::unique_ptr<tyndall::Effect> create(tyndall::PassTiming timing) const {
@@ -137,8 +191,9 @@ private:
     if (!created.effect) throw host::Error("effect: " + created.status.message);
     return std::move(created.effect);
   }
-  void renderBy(tyndall::Effect& effect, tyndall::Frame frame) const {
+  void renderBy(tyndall::Effect& effect, tyndall::Frame frame, tyndall::View view = tyndall::View::Composite) const {
     frame.settings = settings_;
+    frame.settings.view = view;
     const tyndall::Status status = effect.render(frame);
     if (!status) throw host::Error("effect: " + status.message);
   }
@@ -155,7 +210,8 @@ public:
 
   std::string reasonAgainst(const tyndall::Frame& frame) const override { return baseline_->reasonAgainst(frame); }
   void render(const tyndall::Frame& frame) override { baseline_->render(frame); }
-  std::vector<tyndall::PassStatistics> timedPasses(const tyndall::Frame& frame) override {
+  std::vector<tyndall::PassStatistics> timedPasses(const tyndall::Frame& frame, int /*runs*/,
+                                                   const std::function<void()>& /*between*/) override {
     baseline_->timePasses(true);
     baseline_->render(frame);
     baseline_->timePasses(false);
@@ -166,18 +222,6 @@ public:
 private:
   std::unique_ptr<Baseline> baseline_;
 };
-
-tyndall::Settings settingsFor(const Technique& technique) {
-  using tyndall::Profile;
-  tyndall::Settings settings = tyndall::settingsOf(technique.family == "exact"         ? Profile::Reference
-                                                   : technique.family == "performance" ? Profile::Performance
-                                                   : technique.family == "balanced"    ? Profile::Balanced
-                                                                                       : Profile::High);
-  if (technique.family == "tree") settings.technique = tyndall::Technique::Tree;
-  if (!technique.parameters.empty()) settings.slices = technique.parameters[0];
-  if (technique.parameters.size() > 1) settings.samples = technique.parameters[1];
-  return settings;
-}
 
 std::unique_ptr<Baseline> makeBaseline(const Technique& technique) {
   const std::vector<int>& p = technique.parameters;

@@ -3,6 +3,8 @@
 
 #include "baselines/Baseline.h"
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <tyndall/tyndall.h>
 #include <vector>
@@ -30,6 +32,17 @@ std::string techniqueHelp();
 /// Every technique at every quality that the report shows.
 std::vector<std::string> allTechniques();
 
+/// What a frame takes, in numbers that no machine changes.
+struct Counts {
+  std::uint64_t rays = 0;             ///< integrated; up to four extra march samples count as one
+  std::uint64_t fixupPixels = 0;      ///< among them
+  double packedRays = 0;              ///< of extra march samples, about: the sides of a break share one
+  std::optional<double> visitsPerRay; ///< nodes and groups of texels that a pixel's ray looks at, of the first light
+
+  /// Visits per ray times rays: march samples see what pixels see only about.
+  std::optional<double> visitsEstimate() const;
+};
+
 /// Renders frames by one technique.
 class Runner {
 public:
@@ -37,10 +50,16 @@ public:
   virtual std::string reasonAgainst(const tyndall::Frame& frame) const = 0;
   /// Throws host::Error.
   virtual void render(const tyndall::Frame& frame) = 0;
-  /// Renders with each pass timed.
-  virtual std::vector<tyndall::PassStatistics> timedPasses(const tyndall::Frame& frame) = 0;
+  /// Renders with each pass timed. The effect's are medians of runs with something else done between them.
+  virtual std::vector<tyndall::PassStatistics> timedPasses(const tyndall::Frame& frame, int runs,
+                                                           const std::function<void()>& between) = 0;
   virtual std::uint64_t bytes() = 0;
+  /// Renders to count; none where nothing is counted.
+  virtual std::optional<Counts> counts(const tyndall::Frame& /*frame*/) { return std::nullopt; }
 };
+
+/// The settings of a technique that is the effect's.
+tyndall::Settings settingsFor(const Technique& technique);
 
 /// Needs a current context, whose GL functions the loader resolves.
 std::unique_ptr<Runner> makeRunner(const Technique& technique, tyndall::GlLoader loader, bool software);

@@ -6,7 +6,9 @@
 #include <catch2/catch.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,17 +21,28 @@ struct ToolResult {
   std::string output;
 };
 
-ToolResult runTool(const std::string& arguments) {
-  const std::string command =
-      "env -u DISPLAY -u WAYLAND_DISPLAY " + std::string(TYNDALL_BIN_DIR) + "/tyndall-bench " + arguments + " 2>&1";
+ToolResult runCommand(const std::string& command) {
   ToolResult result;
-  std::FILE* pipe = popen(command.c_str(), "r"); // NOLINT(cert-env33-c): fixed commands
+  std::FILE* pipe = popen((command + " 2>&1").c_str(), "r"); // NOLINT(cert-env33-c): fixed commands
   REQUIRE(pipe);
   std::array<char, 4096> buffer{};
   while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe))
     result.output += buffer.data();
   result.exitCode = WEXITSTATUS(pclose(pipe));
   return result;
+}
+
+ToolResult runTool(const std::string& arguments) {
+  return runCommand("env -u DISPLAY -u WAYLAND_DISPLAY " TYNDALL_BIN_DIR "/tyndall-bench " + arguments);
+}
+
+ToolResult runReport(const fs::path& json) {
+  return runCommand("/usr/bin/python3 " TYNDALL_BENCH_DIR "/report.py " + json.string());
+}
+
+nlohmann::json readJson(const fs::path& file) {
+  std::ifstream stream(file);
+  return nlohmann::json::parse(stream);
 }
 
 class Folder {
@@ -107,6 +120,103 @@ TEST_CASE("a case that fails is reported and the rest go on") {
   CHECK(result.output.find("llvmpipe") != std::string::npos);
   CHECK(fs::exists(folder.path() / "bench.csv"));
   CHECK(fs::exists(folder.path() / "bench.json"));
+}
+
+TEST_CASE("every pass that ran has a floor, and only those, and visits are counted where there is a tree") {
+  const Folder folder;
+  const ToolResult result = runTool("--scenes nave,stage --sizes 96x64 --shadow-sizes 128 --floors --techniques "
+                                    "exact,high,performance,tree:64,fixed:16 --out " +
+                                    folder.path().string());
+  INFO(result.output);
+  REQUIRE(result.exitCode == 0);
+  CHECK(result.output.find("high against its floors") != std::string::npos);
+  const nlohmann::json bench = readJson(folder.path() / "bench.json");
+  for (const nlohmann::json& r : bench.at("results")) {
+    CAPTURE(r.at("scene"), r.at("technique"));
+    const bool isOurs = r.at("group") == "ours", hasTree = isOurs || r.at("family") == "tree";
+    CHECK(r.contains("visits_per_ray") == hasTree);
+    if (hasTree) CHECK(r.at("visits_estimate") > r.at("visits_per_ray"));
+    REQUIRE(r.contains("floors") == (isOurs && r.at("scene") == "nave")); // of several lights there are none
+    if (!r.contains("floors")) continue;
+    std::vector<std::string> ran, floors;
+    for (const nlohmann::json& pass : r.at("passes"))
+      if (!pass.contains("skipped")) ran.push_back(pass.at("name"));
+    for (const nlohmann::json& pass : r.at("floors").at("passes")) {
+      floors.push_back("light 0 " + pass.at("name").get<std::string>());
+      CHECK(pass.at("floor_ms") > 0);
+      CHECK(pass.at("ms") > 0);
+    }
+    CHECK(floors == ran);
+    CHECK(ran.size() >= 11);
+  }
+}
+
+TEST_CASE("the report's tables hold the numbers of a run") {
+  const Folder folder;
+  REQUIRE(runTool("--sizes 96x64 --shadow-sizes 128 --floors --techniques exact,high,tree:64,fixed:16 --out " +
+                  folder.path().string())
+              .exitCode == 0);
+  const ToolResult report = runReport(folder.path() / "bench.json");
+  INFO(report.output);
+  REQUIRE(report.exitCode == 0);
+  const nlohmann::json bench = readJson(folder.path() / "bench.json");
+  const auto holds = [&](const std::string& text) { return report.output.find(text) != std::string::npos; };
+  CHECK(holds(bench.at("machine").at("processor")));
+  CHECK(holds("Commit: " + bench.at("commit").get<std::string>()));
+  const std::string setup = "nave 96x64 shadow 128 osmesa";
+  const auto& results = bench.at("results");
+  CHECK(holds("Driver: " + results[0].at("driver").get<std::string>()));
+  const double exact = results[0].at("ms").at("median"), high = results[1].at("ms").at("median");
+  const double error = results[1].at("errors").at("exact").at("rrmse");
+  CHECK(holds(fmt::format("| {} | high | {:.3g} | {:.3g} | {:.3g}x | {:.3g} % |", setup, exact, high, exact / high,
+                          100 * error)));
+  CHECK(holds(fmt::format("| geometric mean: nave | high |  |  | {:.3g}x |", exact / high)));
+  CHECK(holds(fmt::format("| {} | high | research | {:.3g} | {:.3g} % |", setup, high, 100 * error)));
+  for (const auto& pass : results[1].at("floors").at("passes"))
+    CHECK(holds(fmt::format("| {} | {:.3g} | {:.3g} |", pass.at("name").get<std::string>(), pass.at("ms").get<double>(),
+                            pass.at("floor_ms").get<double>())));
+}
+
+TEST_CASE("the report computes means, ratios and the Pareto front") {
+  const Folder folder;
+  nlohmann::json bench = {{"machine", {{"processor", "P"}, {"cores", 1}, {"memory", 1 << 30}, {"system", "S"}}},
+                          {"commit", "c"},
+                          {"date", "d"}};
+  const auto add = [&bench](const char* scene, const char* technique, double milliseconds, double rRmse) {
+    bench["results"].push_back({{"series", "curve"},
+                                {"scene", scene},
+                                {"size", {8, 4}},
+                                {"shadow_size", 16},
+                                {"lights", 0},
+                                {"density", 1.0},
+                                {"context", "osmesa"},
+                                {"driver", "D"},
+                                {"technique", technique},
+                                {"ms", {{"median", milliseconds}, {"runs", {milliseconds}}}},
+                                {"errors", {{"exact", {{"rrmse", rRmse}, {"p99", 0.5}}}}},
+                                {"bytes", 1 << 20}});
+  };
+  for (const auto& [scene, milliseconds] : {std::pair("nave", 20.0), {"forest", 80.0}, {"stage", 1.0}}) {
+    add(scene, "exact", 160, 0);
+    add(scene, "high", milliseconds, 0.125);
+    add(scene, "fixed:16", 40, 0.0625);
+  }
+  bench["scaling"] = {{{"series", "shadow"},
+                       {"technique", "high"},
+                       {"range", 16.0},
+                       {"first_ms", 2.0},
+                       {"last_ms", 8.0},
+                       {"exponent", 0.5}}};
+  std::ofstream(folder.path() / "bench.json") << bench;
+  const ToolResult report = runReport(folder.path() / "bench.json");
+  INFO(report.output);
+  REQUIRE(report.exitCode == 0);
+  for (const char* row :
+       {"| nave 8x4 shadow 16 osmesa | high | 160 | 20 | 8x | 12.5 % | 50 % | 1.0 |",
+        "| geometric mean: nave, forest | high |  |  | 4x |", // 8x and 2x; stage is not among them
+        "| nave 8x4 shadow 16 osmesa | high | yes |  |", "| forest 8x4 shadow 16 osmesa | high | no | fixed:16 |",
+        "| shadow | high | 16x | 2 | 8 | 4x | 0.50 |"})
+    CHECK(report.output.find(row) != std::string::npos);
 }
 
 TEST_CASE("a reference is kept, and made anew when its file is damaged or of another version") {

@@ -56,12 +56,14 @@ std::vector<Result> measureAll(const Options& options, const Machine& machine) {
     // The slow references judge curves; what grows in a scaling series is time.
     measureOptions.mapExact = options.mapExact && setup.series == "curve";
     measureOptions.sceneExact = options.sceneExact && setup.series == "curve";
+    measureOptions.floors = options.floors && setup.series == "curve";
     const Report report = [&](const std::string& what, int begun) {
       progress.begin(setup.label() + ": " + what, begun);
     };
     const std::vector<Result> more = measure(setup, measureOptions, cache, report);
     progress.clear();
     printTable(more);
+    printFloors(more);
     results.insert(results.end(), more.begin(), more.end());
     write(options, machine, results);
   }

@@ -13,21 +13,16 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-OURS = ["high", "balanced", "performance"]
+sys.dont_write_bytecode = True  # the source tree stays as it is
+from report import PROFILES, setup_of  # noqa: E402
+
 COLOURS = {"exact": "black", "profiles": "tab:red", "epipolar": "tab:orange", "fixed": "tab:blue", "half": "tab:cyan",
            "froxels": "tab:purple", "epipolar-march": "tab:green", "tree": "tab:brown", "pyramid": "tab:pink",
            "volumes": "tab:olive", "incremental": "tab:gray"}
 
 
-def setup_of(result):
-    name = "{scene} {0}x{1} shadow {shadow_size} {context}".format(*result["size"], **result)
-    if result["lights"]:
-        name += f" lights {result['lights']}"
-    return name if result["density"] == 1 else name + f" density {result['density']}"
-
-
 def family_of(result):
-    return "profiles" if result["family"] in OURS else result["family"]
+    return "profiles" if result["family"] in PROFILES else result["family"]
 
 
 def save(figure, folder, name):

@@ -246,6 +246,9 @@ struct Statistics {
   /// Camera rays integrated, over all lights and shadow views; march samples that are integrated together, up to four
   /// of a slice, count as one. Reading it waits for the GPU.
   std::uint64_t marchedSamples = 0;
+  /// With View::NodeVisits what that view shows, as a mean over the image: nodes and groups of texels that a ray looks
+  /// at, in all shadow views of the first light. Else 0.
+  double visitsPerRay = 0;
 };
 
 /// Resolves a GL function by name, as glfwGetProcAddress or eglGetProcAddress do.

@@ -53,11 +53,12 @@ using Uint64 = std::uint64_t;
   X(void, TexImage2D,                                                                                                  \
     (Enum target, Int level, Int internal, Sizei width, Sizei height, Int border, Enum format, Enum type,              \
      const void* pixels),                                                                                              \
-    PixelUnpack)                                                                                                       \
+    PixelStorage)                                                                                                      \
   X(void, TexSubImage2D,                                                                                               \
     (Enum target, Int level, Int x, Int y, Sizei width, Sizei height, Enum format, Enum type, const void* pixels),     \
-    PixelUnpack)                                                                                                       \
-  X(void, PixelStorei, (Enum name, Int value), PixelUnpack)                                                            \
+    PixelStorage)                                                                                                      \
+  X(void, PixelStorei, (Enum name, Int value), PixelStorage)                                                           \
+  X(void, GetTexImage, (Enum target, Int level, Enum format, Enum type, void* pixels), PixelStorage)                   \
   X(void, GetTexLevelParameteriv, (Enum target, Int level, Enum name, Int * value), None)                              \
   X(void, GetTexParameteriv, (Enum target, Enum name, Int * value), None)                                              \
   X(void, GenSamplers, (Sizei n, Uint * names), None)                                                                  \

@@ -14,8 +14,10 @@ constexpr std::array<Enum, 11> kCapabilities = {CULL_FACE,           DEPTH_TEST,
                                                 SAMPLE_MASK,         SAMPLE_COVERAGE,    SAMPLE_ALPHA_TO_COVERAGE,
                                                 SAMPLE_ALPHA_TO_ONE, POLYGON_SMOOTH};
 
-constexpr std::array<Enum, 8> kUnpack = {UNPACK_SWAP_BYTES,  UNPACK_LSB_FIRST, UNPACK_ROW_LENGTH,  UNPACK_SKIP_ROWS,
-                                         UNPACK_SKIP_PIXELS, UNPACK_ALIGNMENT, UNPACK_SKIP_IMAGES, UNPACK_IMAGE_HEIGHT};
+constexpr std::array<Enum, 16> kPixelStorage = {
+    UNPACK_SWAP_BYTES,  UNPACK_LSB_FIRST,    UNPACK_ROW_LENGTH, UNPACK_SKIP_ROWS, UNPACK_SKIP_PIXELS, UNPACK_ALIGNMENT,
+    UNPACK_SKIP_IMAGES, UNPACK_IMAGE_HEIGHT, PACK_SWAP_BYTES,   PACK_LSB_FIRST,   PACK_ROW_LENGTH,    PACK_SKIP_ROWS,
+    PACK_SKIP_PIXELS,   PACK_ALIGNMENT,      PACK_SKIP_IMAGES,  PACK_IMAGE_HEIGHT};
 
 Int integer(const Functions& gl, Enum name) {
   Int value = 0;
@@ -44,11 +46,12 @@ StateGuard::StateGuard(const Functions& gl) : gl_(gl) {
   program_ = integer(gl, CURRENT_PROGRAM);
   vertexArray_ = integer(gl, VERTEX_ARRAY_BINDING);
   framebuffer_ = integer(gl, DRAW_FRAMEBUFFER_BINDING);
+  packBuffer_ = integer(gl, PIXEL_PACK_BUFFER_BINDING);
   unpackBuffer_ = integer(gl, PIXEL_UNPACK_BUFFER_BINDING);
   uniformBuffer_ = integer(gl, UNIFORM_BUFFER_BINDING);
   renderbuffer_ = integer(gl, RENDERBUFFER_BINDING);
-  for (std::size_t i = 0; i < kUnpack.size(); ++i)
-    unpack_[i] = integer(gl, kUnpack[i]);
+  for (std::size_t i = 0; i < kPixelStorage.size(); ++i)
+    pixelStorage_[i] = integer(gl, kPixelStorage[i]);
   gl.GetIntegerv(POLYGON_MODE, polygonMode_.data());
   for (std::size_t i = 0; i < uniformBindings_.size(); ++i) {
     const auto index = static_cast<Uint>(i);
@@ -70,9 +73,10 @@ StateGuard::~StateGuard() {
   gl_.BindVertexArray(static_cast<Uint>(vertexArray_));
   gl_.BindFramebuffer(DRAW_FRAMEBUFFER, static_cast<Uint>(framebuffer_));
   gl_.BindRenderbuffer(RENDERBUFFER, static_cast<Uint>(renderbuffer_));
+  gl_.BindBuffer(PIXEL_PACK_BUFFER, static_cast<Uint>(packBuffer_));
   gl_.BindBuffer(PIXEL_UNPACK_BUFFER, static_cast<Uint>(unpackBuffer_));
-  for (std::size_t i = 0; i < kUnpack.size(); ++i)
-    gl_.PixelStorei(kUnpack[i], unpack_[i]);
+  for (std::size_t i = 0; i < kPixelStorage.size(); ++i)
+    gl_.PixelStorei(kPixelStorage[i], pixelStorage_[i]);
   for (std::size_t i = 0; i < uniformBindings_.size(); ++i) {
     const UniformBinding& binding = uniformBindings_[i];
     const auto index = static_cast<Uint>(i);
@@ -213,9 +217,10 @@ void StateGuard::setDefaults() const {
   gl_.Disable(SCISSOR_TEST);
   gl_.Disable(BLEND);
   gl_.PolygonMode(FRONT_AND_BACK, FILL);
+  gl_.BindBuffer(PIXEL_PACK_BUFFER, 0);
   gl_.BindBuffer(PIXEL_UNPACK_BUFFER, 0);
-  for (const Enum parameter : kUnpack)
-    gl_.PixelStorei(parameter, parameter == UNPACK_ALIGNMENT ? 4 : 0);
+  for (const Enum parameter : kPixelStorage)
+    gl_.PixelStorei(parameter, parameter == UNPACK_ALIGNMENT || parameter == PACK_ALIGNMENT ? 4 : 0);
   for (std::size_t i = 0; i < drawBuffers_.size(); ++i)
     gl_.ColorMaski(static_cast<Uint>(i), 1, 1, 1, 1);
 }

@@ -60,8 +60,9 @@ private:
   Int vertexArray_ = 0;
   Int framebuffer_ = 0;
   Int renderbuffer_ = 0;
+  Int packBuffer_ = 0;
   Int unpackBuffer_ = 0;
-  std::array<Int, 8> unpack_{};
+  std::array<Int, 16> pixelStorage_{};
   std::array<StencilFace, 2> stencil_;
   Int uniformBuffer_ = 0;
   Int activeUnit_ = 0;

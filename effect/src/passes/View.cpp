@@ -39,13 +39,13 @@ bool runMean(const PassContext& context, const MeanIn& in) {
     bindTexture(context, gl::Unit::ViewImage, gl::TEXTURE_2D, image);
     return drawFullScreen(context, kMean, {{"CHANNELS", channels}});
   };
-  return draw(in.image, in.rowMeans, in.height, 3) && draw(in.rowMeans, in.mean, 1, 1);
+  return draw(in.image, in.rowMeans, in.height, in.channels) && draw(in.rowMeans, in.mean, 1, 1);
 }
 
 bool prepare(const PassContext& context, View view) {
-  if (view == View::Difference)
-    for (const int channels : {1, 3})
-      if (!context.programs.use(kMean, {{"CHANNELS", channels}})) return false;
+  const bool hasMean = view == View::Difference || view == View::NodeVisits;
+  for (const int channels : {1, 3})
+    if (hasMean && !context.programs.use(kMean, {{"CHANNELS", channels}})) return false;
   return context.programs.use(shaderOf(view), {}) != 0;
 }
 

@@ -21,6 +21,7 @@ bool run(const PassContext& context, const In& in);
 
 struct MeanIn {
   gl::Uint image = 0;
+  int channels = 3;      ///< that count: R, G and B, or 1: R alone
   int height = 0;        ///< of the image
   gl::Uint rowMeans = 0; ///< receives the means of its rows, height x 1
   gl::Uint mean = 0;     ///< receives their mean, 1 x 1

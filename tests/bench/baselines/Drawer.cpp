@@ -31,7 +31,9 @@ void define(Defines& defines, const char* name, int value) {
 int bytesPerPixel(GLenum format) {
   switch (format) {
   case GL_R32F:
+  case GL_RG16:
     return 4;
+  case GL_RGBA16:
   case GL_RGBA16F:
   case GL_RG32F:
     return 8;

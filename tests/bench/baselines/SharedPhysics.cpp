@@ -2,6 +2,7 @@
 
 #include "optics/Blocks.h"
 #include "optics/Matrices.h"
+#include "optics/Slices.h"
 
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
@@ -43,6 +44,11 @@ glm::dmat4 clipFromCamera(const tyndall::Frame& frame) {
   const glm::dmat4 clipFromWorld =
       tyndall::optics::toGlm(frame.camera.clipFromView) * tyndall::optics::toGlm(frame.camera.viewFromWorld);
   return glm::translate(clipFromWorld, tyndall::optics::cameraOrigin(frame.camera));
+}
+
+SliceShape sliceShape(const tyndall::Frame& frame, const tyndall::Light& light, int shadowWidth, int shadowHeight) {
+  const tyndall::optics::SliceTable table = tyndall::optics::makeSlices(frame, light, shadowWidth, shadowHeight);
+  return {table.slices, (table.longestRow + 63) / 64 * 64, table.regularSamples};
 }
 
 bool isMonochrome(const tyndall::Medium& medium) { return tyndall::optics::isMonochrome(medium); }

@@ -1,6 +1,7 @@
 // The uniform blocks of glsl/shared.glsl as the effect itself fills them, so that baselines share its physics.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <tyndall/tyndall.h>
 #include <vector>
@@ -21,6 +22,14 @@ glm::dmat4 cameraFromTexel(const tyndall::Frame& frame, const tyndall::Light& li
 /// True if the light's shadow map stores depth that falls away from the light.
 bool isReversedMap(const tyndall::Frame& frame, const tyndall::Light& light);
 glm::dmat4 clipFromCamera(const tyndall::Frame& frame);
+
+/// How large the epipolar textures of a light are.
+struct SliceShape {
+  int slices = 0;
+  int rowTexels = 0;                ///< of the longest row, up to a multiple of 64
+  std::uint64_t regularSamples = 0; ///< that are always marched, over all slices
+};
+SliceShape sliceShape(const tyndall::Frame& frame, const tyndall::Light& light, int shadowWidth, int shadowHeight);
 
 /// True if every coefficient has the same value in R, G and B.
 bool isMonochrome(const tyndall::Medium& medium);

@@ -74,6 +74,9 @@ const std::map<std::string, GLenum> kIntegers = {
     {"stencil back fail", GL_STENCIL_BACK_FAIL},
     {"stencil back pass", GL_STENCIL_BACK_PASS_DEPTH_PASS},
     {"stencil depth fail", GL_STENCIL_PASS_DEPTH_FAIL},
+    {"pack skip pixels", GL_PACK_SKIP_PIXELS},
+    {"pack swap bytes", GL_PACK_SWAP_BYTES},
+    {"pack alignment", GL_PACK_ALIGNMENT},
     {"unpack skip rows", GL_UNPACK_SKIP_ROWS},
     {"unpack skip pixels", GL_UNPACK_SKIP_PIXELS},
     {"unpack swap bytes", GL_UNPACK_SWAP_BYTES},
@@ -143,7 +146,8 @@ State captureState() {
 struct Poison {
   std::vector<host::GlTexture> textures;
   std::vector<host::GlSampler> samplers;
-  host::GlBuffer uniforms = host::makeBuffer(), vertices = host::makeBuffer(), unpack = host::makeBuffer();
+  host::GlBuffer uniforms = host::makeBuffer(), vertices = host::makeBuffer();
+  host::GlBuffer unpack = host::makeBuffer(), pack = host::makeBuffer();
   host::GlVertexArray vertexArray = host::makeVertexArray();
   host::GlTexture target = host::makeTexture2D(GL_RGBA16F, 8, 8);
   host::GlFramebuffer framebuffer = host::makeFramebuffer();
@@ -185,6 +189,9 @@ struct Poison {
     g.StencilMaskSeparate(GL_BACK, 0x70);
     g.StencilOpSeparate(GL_FRONT, GL_INCR, GL_ZERO, GL_INVERT);
     g.StencilOpSeparate(GL_BACK, GL_DECR, GL_INCR_WRAP, GL_REPLACE);
+    g.PixelStorei(GL_PACK_SKIP_PIXELS, 5);
+    g.PixelStorei(GL_PACK_SWAP_BYTES, GL_TRUE);
+    g.PixelStorei(GL_PACK_ALIGNMENT, 1);
     g.PixelStorei(GL_UNPACK_SKIP_ROWS, 2);
     g.PixelStorei(GL_UNPACK_SKIP_PIXELS, 3);
     g.PixelStorei(GL_UNPACK_ALIGNMENT, 8);
@@ -209,6 +216,7 @@ struct Poison {
     }
     g.ActiveTexture(GL_TEXTURE5);
     g.BindBuffer(GL_PIXEL_UNPACK_BUFFER, unpack.name());
+    g.BindBuffer(GL_PIXEL_PACK_BUFFER, pack.name());
   }
 
   static void lift() {
@@ -230,11 +238,14 @@ struct Poison {
     g.FrontFace(GL_CCW);
     g.BlendEquation(GL_FUNC_ADD);
     g.BlendFunc(GL_ONE, GL_ZERO);
-    for (const GLenum name : {GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SWAP_BYTES})
+    for (const GLenum name : {GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SWAP_BYTES,
+                              GL_PACK_SKIP_PIXELS, GL_PACK_SWAP_BYTES})
       g.PixelStorei(name, 0);
     g.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    g.PixelStorei(GL_PACK_ALIGNMENT, 4);
     g.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
     g.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+    g.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     for (GLuint unit = 0; unit < 16; ++unit)
       g.BindSampler(unit, 0);
     g.ActiveTexture(GL_TEXTURE0);
@@ -320,6 +331,9 @@ TEST_CASE("debug views leave a poisoned GL state alone") {
   FullFrame full;
   Frame frame = full.rig.frame;
   frame.settings.technique = Technique::Epipolar;
+  frame.settings.view = View::NodeVisits;
+  REQUIRE(tests::testEffect().render(frame));
+  const double visits = tests::testEffect().statistics().visitsPerRay;
   for (int view = 1; view <= static_cast<int>(View::Difference); ++view) {
     frame.settings.view = static_cast<View>(view);
     const Poison poison;
@@ -330,6 +344,7 @@ TEST_CASE("debug views leave a poisoned GL state alone") {
     INFO(status.message);
     CAPTURE(view);
     CHECK(status);
+    if (frame.settings.view == View::NodeVisits) CHECK(tests::testEffect().statistics().visitsPerRay == visits);
     for (const auto& [name, values] : before) {
       INFO(name);
       CHECK(values == after.at(name));

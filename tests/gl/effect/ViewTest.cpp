@@ -3,6 +3,7 @@
 
 #include "gl/ReadBack.h"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
@@ -57,6 +58,23 @@ bool isBlack(const Picture& picture) { return picture.sum() == glm::dvec3(0); }
 glm::vec3 signedColour(double t) {
   const glm::vec3 end = t < 0 ? glm::vec3(0, 0.1, 1) : glm::vec3(1, 0.1, 0);
   return glm::mix(glm::vec3(0.5F), end, static_cast<float>(std::min(std::abs(t), 1.0)));
+}
+
+// glsl/lib/scale.glsl
+glm::vec3 heat(double t) {
+  const std::array<glm::vec3, 5> stops = {glm::vec3(0), {0.1, 0.1, 0.8}, {0.8, 0.05, 0.1}, {1, 0.8, 0}, glm::vec3(1)};
+  const auto low = std::min<std::size_t>(static_cast<std::size_t>(4 * t), 3);
+  return glm::mix(stops[low], stops[low + 1], static_cast<float>(4 * t - static_cast<double>(low)));
+}
+
+// The number whose colour is nearest.
+int visitsOf(const glm::vec3& colour) {
+  int best = 0;
+  for (int visits = 1; visits < 1024; ++visits)
+    if (glm::distance(heat(std::log2(1.0 + visits) / 10), colour) <
+        glm::distance(heat(std::log2(1.0 + best) / 10), colour))
+      best = visits;
+  return best;
 }
 
 double meanOf(const std::vector<double>& values) {
@@ -196,6 +214,39 @@ TEST_CASE("the view of visits shows where the tree is walked, with its scale") {
   CHECK(large.at(86, 4).g > 0.9F); // its end: white
   CHECK(large.at(86, 4).b > 0.7F);
   CHECK(large.at(10, 4).b < 0.2F); // its begin: black
+}
+
+TEST_CASE("the view of visits is counted: their mean a ray, which the tree makes smaller") {
+  for (const LightKind kind : kKinds)
+    for (const Technique technique : {Technique::Tree, Technique::Epipolar}) {
+      CAPTURE(static_cast<int>(kind), static_cast<int>(technique));
+      tests::ShaftRig rig;
+      rig.addLight(tests::shaftLight(kind));
+      Settings& settings = rig.scene.frame.settings;
+      settings.technique = technique;
+      const auto visits = [&](View view) {
+        pictureOf(rig.scene, view);
+        return tests::testEffect().statistics().visitsPerRay;
+      };
+      const double withTree = visits(View::NodeVisits);
+      CHECK(withTree > 0);
+      CHECK(visits(View::Slices) == 0);
+      CHECK(visits(View::Difference) == 0);
+      settings.minMaxTree = false;
+      CHECK(visits(View::NodeVisits) > withTree);
+    }
+}
+
+TEST_CASE("the mean of visits is that of the picture") {
+  tests::SceneRig scene; // too small for the scale bar
+  scene.addLight(LightKind::Directional, tests::Casters::Blocks);
+  scene.frame.settings.technique = Technique::Tree;
+  const Picture picture = pictureOf(scene, View::NodeVisits);
+  const double mean = tests::testEffect().statistics().visitsPerRay;
+  double sum = 0;
+  for (std::size_t i = 0; i < picture.pixels(); ++i)
+    sum += visitsOf(picture.at(i));
+  CHECK(mean == Approx(sum / static_cast<double>(picture.pixels())));
 }
 
 TEST_CASE("the view of the difference is grey where nothing differs, else in its documented scale") {
