@@ -55,23 +55,43 @@ std::string numbered(const std::string& text) {
   return result;
 }
 
-} // namespace
-
-Uint ProgramCache::use(const std::string& fragment, const Definitions& definitions, const std::string& vertex) {
+std::string keyOf(const std::string& fragment, const Definitions& definitions, const std::string& vertex) {
   std::string key = fragment + " " + vertex;
   for (const auto& [name, value] : definitions)
     key += " " + name + "=" + std::to_string(value);
-  auto found = programs_.find(key);
-  if (found == programs_.end()) {
-    const Uint name = link(fragment, definitions, vertex);
-    if (name == 0) {
-      error_ = key + "\n" + error_;
-      return 0;
+  return key;
+}
+
+// Those that the shaders mention: variants that differ in no other are one program.
+Definitions mentioned(const Definitions& definitions, const std::string& fragment, const std::string& vertex) {
+  const std::string text = std::string(shaderSource(fragment.c_str())) + shaderSource(vertex.c_str());
+  Definitions result;
+  for (const auto& definition : definitions)
+    if (text.find(definition.first) != std::string::npos) result.push_back(definition);
+  return result;
+}
+
+} // namespace
+
+Uint ProgramCache::use(const std::string& fragment, const Definitions& definitions, const std::string& vertex) {
+  const std::string asked = keyOf(fragment, definitions, vertex);
+  auto known = names_.find(asked);
+  if (known == names_.end()) {
+    const Definitions needed = mentioned(definitions, fragment, vertex);
+    const std::string key = keyOf(fragment, needed, vertex);
+    auto found = programs_.find(key);
+    if (found == programs_.end()) {
+      const Uint name = link(fragment, needed, vertex);
+      if (name == 0) {
+        error_ = key + "\n" + error_;
+        return 0;
+      }
+      found = programs_.emplace(key, Program(gl_, name)).first;
     }
-    found = programs_.emplace(key, Program(gl_, name)).first;
+    known = names_.emplace(asked, found->second.name()).first;
   }
-  gl_.UseProgram(found->second.name());
-  return found->second.name();
+  gl_.UseProgram(known->second);
+  return known->second;
 }
 
 Uint ProgramCache::compile(Enum kind, const std::string& file, const Definitions& definitions) {

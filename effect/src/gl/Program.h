@@ -82,7 +82,8 @@ private:
   Uint link(const std::string& fragment, const Definitions& definitions, const std::string& vertex);
 
   const Functions& gl_;
-  std::map<std::string, Program> programs_;
+  std::map<std::string, Program> programs_; ///< by what their shaders mention
+  std::map<std::string, Uint> names_;       ///< by what was asked for
   std::string error_;
 };
 

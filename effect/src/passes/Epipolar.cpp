@@ -71,14 +71,17 @@ Status run(const PassContext& pass, Targets& targets, PassRecorder& recorder, co
 
 std::vector<gl::Variant> allVariants() {
   std::vector<gl::Variant> all = slice_view::allVariants();
+  all.push_back({"passes/offsets.frag", {}});
   for (const exact::Variant& variant : exact::allVariants()) {
     if (variant.multisampled || variant.lightKind == 3) continue;
     for (const gl::Variant& pixels : pixel_tree::variantsOf(variant))
       all.push_back(pixels);
-    if (variant.composite) continue;
     const gl::Definitions definitions = exact::definitionsOf(variant);
-    all.push_back({"passes/march.frag", definitions});
+    for (const char* fragment : {"sampleEnds", "marks", "march", "refine", "interpolate", "unwarp"})
+      all.push_back({std::string("passes/") + fragment + ".frag", definitions});
     all.push_back({"passes/marchExtra.frag", definitions, "passes/strips.vert"});
+    for (const gl::Variant& row : rows::variantsOf(variant))
+      all.push_back(row);
   }
   return all;
 }

@@ -18,11 +18,16 @@ Status target(SliceContext& context, Target which, int height, int drawn, gl::Ui
   return {};
 }
 
-Status drawDepths(SliceContext& context) {
-  gl::Definitions definitions = context.definitions;
+gl::Variant depthsOf(const exact::Variant& variant) {
+  gl::Definitions definitions = exact::definitionsOf(variant);
   definitions.emplace_back("STRIPS_OF_ROWS", 1);
+  return {"passes/rowDepths.frag", definitions, "passes/strips.vert"};
+}
+
+Status drawDepths(SliceContext& context) {
+  const gl::Variant v = depthsOf(context.inputs.variant);
   const bool ok = context.recorder.run(context.inputs.name + " rows", [&] {
-    return drawStrips(context.pass, "passes/strips.vert", context.slices.count, "passes/rowDepths.frag", definitions);
+    return drawStrips(context.pass, v.vertex, context.slices.count, v.fragment, v.definitions);
   });
   return ok ? Status{} : context.shaderError();
 }
@@ -51,6 +56,12 @@ Status run(SliceContext& context, const In& in, Out& out) {
   const int roomNodes = treeNodes(room, levels), drawnNodes = treeNodes(drawn, levels);
   if (Status s = target(context, Target::RowTree, roomNodes, drawnNodes, out.tree); !s) return s;
   return context.draw("tree", "passes/rowTree.frag", context.definitions);
+}
+
+std::vector<gl::Variant> variantsOf(const exact::Variant& variant) {
+  if (variant.shadowViews == 0) return {};
+  const gl::Definitions definitions = exact::definitionsOf(variant);
+  return {depthsOf(variant), {"passes/rowNodes.frag", definitions}, {"passes/rowTree.frag", definitions}};
 }
 
 void bind(const SliceContext& context, const Out& rows) {

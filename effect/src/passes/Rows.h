@@ -17,6 +17,9 @@ struct Out {
 
 Status run(SliceContext& context, const In& in, Out& out);
 
+/// All programs of a light.
+std::vector<gl::Variant> variantsOf(const exact::Variant& variant);
+
 /// For the passes that walk along rows; also binds the maps, which filtered and tinted rows look up.
 void bind(const SliceContext& context, const Out& rows);
 

@@ -63,8 +63,8 @@ void checkTree(const Case& item, bool both) {
 // Rows walked through their tree and texel by texel.
 void checkSwitch(const Case& item, ShadowFilter filter, bool glass) {
   CAPTURE(item.name, static_cast<int>(filter), glass);
-  tests::ShaftRig rig(72, 48);
-  rig.addLight(item.light, 128, glass);
+  tests::ShaftRig rig(48, 32);
+  rig.addLight(item.light, 64, glass);
   Settings& settings = rig.scene.frame.settings;
   settings.shadowFilter = filter;
   for (const Technique technique : {Technique::Tree, Technique::Epipolar}) {
@@ -84,11 +84,10 @@ void checkSwitch(const Case& item, ShadowFilter filter, bool glass) {
 } // namespace
 
 TEST_CASE("the tree of a row only saves time: the picture is the same without it") {
-  for (const std::vector<Case>& cases : {suns(), lamps()})
-    for (const Case& item : cases) {
-      checkSwitch(item, ShadowFilter::Nearest, false);
-      checkSwitch(item, ShadowFilter::Bilinear, item.light.kind == LightKind::Spot);
-    }
+  checkSwitch(suns().front(), ShadowFilter::Nearest, false);
+  checkSwitch(suns().back(), ShadowFilter::Bilinear, false);
+  checkSwitch(lamps().front(), ShadowFilter::Bilinear, true);
+  checkSwitch(lamps().back(), ShadowFilter::Nearest, false);
 }
 
 TEST_CASE("tree comes close to exact for a sun with one to four cascades") {
