@@ -149,6 +149,7 @@ struct Medium {
   double farDistance = kInfinity;        ///< where rays to the sky end, world units, > 0
 };
 
+/// Tree and Epipolar need shadow views whose centre is the light itself: its direction or its position.
 enum class Technique {
   Exact,    ///< every shadow texel along every pixel's ray, closed form or quadrature per lit span: the reference
   Tree,     ///< every pixel along its nearest slice's row, skipping by a min/max tree (Chen 2011)
