@@ -89,8 +89,9 @@ private:
     std::vector<Read> maps = {sliceTable(2), shadowMap(4)};
     if (hasGlass_) maps.push_back(shadowMap(4)); // its depths
     const double texelsOfNode = static_cast<double>(levels_) * (shape_.rowTexels / 16) / treeNodes_;
-    return {over("rows", rowDepths(0), maps), over("nodes", rowNodes(0), {rowDepths(4)}),
-            over("tree", rowTree(0), {rowNodes(texelsOfNode)})};
+    Pass rows = over("rows", rowDepths(0), maps);
+    rows.height = std::max(1, shape_.drawnTexels / 4);
+    return {rows, over("nodes", rowNodes(0), {rowDepths(4)}), over("tree", rowTree(0), {rowNodes(texelsOfNode)})};
   }
 
   std::vector<Pass> samplePasses() const {

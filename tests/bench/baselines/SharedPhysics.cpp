@@ -4,6 +4,7 @@
 #include "optics/Matrices.h"
 #include "optics/Slices.h"
 
+#include <algorithm>
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -48,7 +49,16 @@ glm::dmat4 clipFromCamera(const tyndall::Frame& frame) {
 
 SliceShape sliceShape(const tyndall::Frame& frame, const tyndall::Light& light, int shadowWidth, int shadowHeight) {
   const tyndall::optics::SliceTable table = tyndall::optics::makeSlices(frame, light, shadowWidth, shadowHeight);
-  return {table.slices, (table.longestRow + 63) / 64 * 64, table.regularSamples};
+  SliceShape shape{table.slices, (table.longestRow + 63) / 64 * 64, 0, table.regularSamples};
+  int strips = 0, sum = 0;
+  for (int first = 0; first < table.slices; first += 64, ++strips) {
+    float most = 0;
+    for (int i = first; i < std::min(first + 64, table.slices); ++i)
+      most = std::max(most, table.texels[static_cast<std::size_t>(3 * table.slices + i)].x); // texels of the first view
+    sum += static_cast<int>(most);
+  }
+  shape.drawnTexels = sum / std::max(strips, 1);
+  return shape;
 }
 
 bool isMonochrome(const tyndall::Medium& medium) { return tyndall::optics::isMonochrome(medium); }

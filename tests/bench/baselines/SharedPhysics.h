@@ -27,6 +27,7 @@ glm::dmat4 clipFromCamera(const tyndall::Frame& frame);
 struct SliceShape {
   int slices = 0;
   int rowTexels = 0;                ///< of the longest row, up to a multiple of 64
+  int drawnTexels = 0;              ///< of a row as strips of 64 slices draw it, as a mean
   std::uint64_t regularSamples = 0; ///< that are always marched, over all slices
 };
 SliceShape sliceShape(const tyndall::Frame& frame, const tyndall::Light& light, int shadowWidth, int shadowHeight);
