@@ -1,7 +1,7 @@
 // The light of [from, end] of a camera ray as a draw for one shadow view sees it: the view's own part along the slice's row and, in
 // the draw that has it (march.z), what lies outside all views.
 
-#if SHADOW_VIEWS > 0
+#if SHADOW_VIEWS > 0 && !defined(SKIPS_NODES)
 Light ownedLight(Airlight light, ViewSegment segment, int slice) { return rowLight(light, segment, slice); }
 #endif
 

@@ -68,6 +68,7 @@ struct Line {
   vec3 origin, slope; // cell coordinates and depth at u are origin + u slope
   vec2 inverse;       // u per cell
   ivec2 direction;    // of the steps along x and y
+  ivec2 last;         // cell
 };
 
 // Where on its line a walk from cell to cell stands.
@@ -76,6 +77,9 @@ struct Walk {
   int left;       // cells to walk, this one included
   float u, depth; // and the receiver's depth there
   vec2 ahead;     // the next grid lines, relative to the line's origin
+#ifdef SKIPS_NODES
+  float stop;     // how far cells are looked at before nodes are again
+#endif
 };
 
 void startWalk(ViewSegment segment, out Line line, out Walk walk) {
@@ -86,14 +90,17 @@ void startWalk(ViewSegment segment, out Line line, out Walk walk) {
   const float kShift = 0.0;
   const int kLowest = 0;
 #endif
+#ifdef SKIPS_NODES
+  walk.stop = -1.0;
+#endif
   line.origin = vec3(segment.p0.xy - kShift, segment.p0.z);
   vec3 end = vec3(segment.p1.xy - kShift, segment.p1.z);
   line.slope = end - line.origin;
   line.direction = ivec2(line.slope.x < 0.0 ? -1 : 1, line.slope.y < 0.0 ? -1 : 1);
   ivec2 highest = viewCounts.zw - 1;
-  ivec2 last = clamp(ivec2(floor(end.xy)), ivec2(kLowest), highest);
+  line.last = clamp(ivec2(floor(end.xy)), ivec2(kLowest), highest);
   walk.cell = clamp(ivec2(floor(line.origin.xy)), ivec2(kLowest), highest);
-  ivec2 extent = abs(last - walk.cell);
+  ivec2 extent = abs(line.last - walk.cell);
   walk.left = extent.x + extent.y + 1;
   walk.u = 0.0;
   walk.depth = line.origin.z;
@@ -120,6 +127,25 @@ void stepCell(Line line, inout Walk walk, float u, float depth) {
   walk.depth = depth;
   --walk.left;
 }
+
+#ifdef SKIPS_NODES
+
+// On to a later place on the line.
+void enterCell(Line line, inout Walk walk, float u) {
+  ivec2 cell = ivec2(floor(line.origin.xy + line.slope.xy * u));
+  cell = clamp(cell, min(walk.cell, line.last), max(walk.cell, line.last));
+  walk.ahead += vec2(cell - walk.cell);
+  walk.cell = cell;
+  ivec2 extent = abs(line.last - cell);
+  walk.left = u < 1.0 ? extent.x + extent.y + 1 : 0;
+  walk.u = u;
+  walk.depth = line.origin.z + line.slope.z * u;
+}
+
+// Takes all nodes of a tree over the map in which the visibility is `current`, and sets where to look again.
+void skipNodes(Line line, Visibility current, inout Walk walk);
+
+#endif
 
 #if FILTER_BILINEAR
 
@@ -225,6 +251,9 @@ float parameterAt(ViewSegment segment, float s) {
 
 // Takes the cell if the visibility is `current` all through it.
 bool takeCell(Line line, int view, inout Walk walk, Visibility current) {
+#ifdef SKIPS_NODES
+  if (walk.u >= walk.stop) return false;
+#endif
   float u = cellEnd(line, walk);
   float depth = line.origin.z + line.slope.z * u;
   if (walk.left <= 0 || !isUnchanged(walk.cell, view, walk.depth, depth, current)) return false;
@@ -250,6 +279,9 @@ Light segmentLight(Airlight light, ViewSegment segment) {
     Visibility weight = Visibility(0.0);
     float begin = 0.0, end = 0.0;
     while (!done && weight == Visibility(0.0)) {
+#ifdef SKIPS_NODES
+      if (walk.u >= walk.stop) skipNodes(line, current, walk);
+#endif
       bool walking = true;
       while (walking) {
         walking = takeCell(line, view, walk, current) && takeCell(line, view, walk, current) &&
@@ -265,6 +297,9 @@ Light segmentLight(Airlight light, ViewSegment segment) {
 #endif
       Visibility visibility = Visibility(0.0);
       if (!done) visibility = pieceVisibility(line, walk.cell, view, walk.u, uEnd);
+#ifdef SKIPS_NODES
+      if (!done && walk.u >= walk.stop) continue;
+#endif
       if (visibility != current) {
         weight = current;
         begin = from;

@@ -21,6 +21,15 @@ vec3 storedLight(Light light, Ray ray) {
 #endif
 }
 
+// The brightest channel of stored light.
+float brightestOf(vec4 stored) {
+#if MONOCHROME && !GLASS
+  return stored.r;
+#else
+  return max(stored.r, max(stored.g, stored.b));
+#endif
+}
+
 // Where on its ray a sample ends, for unwarp to compare with the pixel's: the binary logarithm of the distance and, as a
 // lamp's inscatter is even over the angle at the lamp, not over the distance, that angle from the ray's nearest point on.
 float endCoordinate(Ray ray, float end) {

@@ -1,7 +1,7 @@
 // Unwarp: from slices to pixels, bilinear over two slices and two samples each, each sample weighted by how well its
 // distance agrees with the pixel's (Yusov 2013, "Transformation from epipolar to rectangular coordinates"). A pixel that no
-// sample serves is discarded, so that its stencil stays for the fix-up. Reads the slice table, epipolarInscatter
-// and the scene depth. Writes inscatter and transmittance as exact.frag does.
+// sample serves, or whose samples differ by a share of the picture's mean, is discarded, so that its stencil stays for the
+// fix-up. Reads the slice table, epipolarInscatter, meanLight and the scene depth. Writes inscatter and transmittance as exact.frag does.
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
@@ -11,6 +11,7 @@
 #include "lib/stored.glsl"
 
 uniform sampler2D epipolarInscatter;
+uniform sampler2D meanLight;
 
 #if COMPOSITE
 layout(location = 0, index = 0) out vec4 outInscatter;
@@ -21,10 +22,10 @@ layout(location = 1) out vec4 outTransmittance;
 #endif
 
 // Sums over samples: inscatter and weight of the bilateral filter; inscatter, end coordinate and weight of the plain
-// bilinear one.
+// bilinear one; squares of the brightest channel, times the bilateral weight.
 struct Sums {
   vec4 agreeing, plain;
-  float plainWeight;
+  float plainWeight, squares;
 };
 
 // Adds two samples of a slice, bilinearly, and by how far their end coordinates are from the pixel's.
@@ -40,7 +41,9 @@ void addSlice(int slice, float sliceWeight, vec2 p, float end, inout Sums sums) 
     float weight = sliceWeight * (k == 0 ? 1.0 - f : f), sampleEnd = storedCoordinate(stored);
     float agreement = min(1.0, thresholds.w / max(abs(sampleEnd - end), 1e-20));
     agreement *= agreement;
-    sums.agreeing += weight * agreement * agreement * vec4(stored.rgb, 1.0);
+    float agreeing = weight * agreement * agreement, brightest = brightestOf(stored);
+    sums.agreeing += agreeing * vec4(stored.rgb, 1.0);
+    sums.squares += agreeing * brightest * brightest;
     sums.plain += weight * vec4(stored.rgb, sampleEnd);
     sums.plainWeight += weight;
   }
@@ -53,7 +56,7 @@ void main() {
   ivec2 slices = neighbourSlices(place);
   Ray ray = cameraRay(gl_FragCoord.xy);
   float coordinate = endCoordinate(ray, min(end, extinction.w));
-  Sums sums = Sums(vec4(0.0), vec4(0.0), 0.0);
+  Sums sums = Sums(vec4(0.0), vec4(0.0), 0.0, 0.0);
   addSlice(slices.x, 1.0 - f, gl_FragCoord.xy, coordinate, sums);
   addSlice(slices.y, f, gl_FragCoord.xy, coordinate, sums);
   // Where the samples' ends lead to the pixel's, one surface runs through all of them: to leave out those that
@@ -65,6 +68,10 @@ void main() {
   const float kNear = LIGHT_KIND == 0 ? EPIPOLE_GAP : LAMP_PIXELS;
   if (distance(gl_FragCoord.xy * epipole.z, epipole.xy) < (epipole.z > 0.0 ? kNear : EPIPOLE_GAP) * abs(epipole.z)) discard;
   if (!(sum.w >= thresholds.y && sum.w > 0.0)) discard;
+  // Samples that agree with the pixel but not with each other: edges of shadows run between them.
+  float least = spread.x * texelFetch(meanLight, ivec2(0), 0).r * lampSine(ray) * sums.agreeing.w;
+  float brightest = brightestOf(sums.agreeing);
+  if (sums.squares * sums.agreeing.w - brightest * brightest > least * least) discard;
   outInscatter = vec4(min(lightFromStored(sum.rgb / sum.w, ray), limits.xxx), 0.0);
   outTransmittance = vec4(transmittanceTo(end), 1.0);
 }

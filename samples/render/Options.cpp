@@ -41,7 +41,7 @@ Exit status
 /// The options as typed.
 struct Typed {
   std::string scene, camera, eye, target, fov, sun, size, supersample, profile, technique, view, slices, samples,
-      rowStep, tree, breakThreshold, bendThreshold, leastWeight, filter, medium, shadowSize, cascades, frames, repeat,
+      rowStep, tree, breakThreshold, bendThreshold, leastWeight, spreadThreshold, filter, medium, shadowSize, cascades, frames, repeat,
       context, stats, exposure;
   std::vector<std::string> out;
   bool reversedDepth = false;
@@ -147,6 +147,7 @@ void readQuality(const Typed& typed, Options& options) {
   options.breakThreshold = parseThreshold("--break-threshold", typed.breakThreshold, false, 1e6);
   options.bendThreshold = parseThreshold("--bend-threshold", typed.bendThreshold, false, 1e6);
   options.leastWeight = parseThreshold("--least-weight", typed.leastWeight, true, 1);
+  options.spreadThreshold = parseThreshold("--spread-threshold", typed.spreadThreshold, false, 1e6);
   if (!typed.tree.empty() && typed.tree != "on" && typed.tree != "off")
     failUsage("--tree", typed.tree, "must be on or off");
   options.minMaxTree = typed.tree != "off";
@@ -211,7 +212,9 @@ void addOptions(CLI::App& app, Typed& typed) {
       ->type_name("X");
   app.add_option("--bend-threshold", typed.bendThreshold, "bend of the inscatter that is marched more finely")
       ->type_name("X");
-  app.add_option("--least-weight", typed.leastWeight, "bilateral weight under which a pixel is marched by itself")
+  app.add_option("--least-weight", typed.leastWeight, "bilateral weight under which a pixel is marched by itself");
+  app.add_option("--spread-threshold", typed.spreadThreshold,
+                 "spread of the samples around a pixel over which it is marched by itself")
       ->type_name("X");
   app.add_option("--filter", typed.filter, "of the shadow map: nearest (default) or bilinear")->type_name("NAME");
   app.add_option("--medium", typed.medium, "the medium, instead of the scene's")->type_name("M.json");

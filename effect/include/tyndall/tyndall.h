@@ -200,6 +200,9 @@ struct Settings {
   float bendThreshold =
       0.02F; ///< Epipolar: relative bend of the inscatter along a slice that is marched more finely, > 0
   float leastWeight = 0.01F; ///< Epipolar: bilateral weight under which a pixel is marched by itself, 0 to 1
+  /// Epipolar: relative spread (standard deviation over mean) of the inscatter of the samples that serve a pixel, over
+  /// which it is marched by itself, > 0: the edge of a shadow runs between two slices there
+  float spreadThreshold = 0.05F;
 };
 
 /// The settings of a profile. Reference is Technique::Exact.

@@ -33,6 +33,8 @@ constexpr Sampler kSamplers[] = {
     {"rowNodes", Unit::RowNodes},
     {"rowTree", Unit::RowTree},
     {"extraOffsets", Unit::ExtraOffsets},
+    {"sliceSums", Unit::SliceSums},
+    {"meanLight", Unit::MeanLight},
     {"image", Unit::ViewImage},
     {"refinedMarks", Unit::ViewImage},
     {"exactInscatter", Unit::ViewExact},

@@ -33,6 +33,8 @@ enum class Unit : Uint {
   ExtraGreen = Inscatter, ///< no pass reads both
   ExtraBlue = Transmittance,
   ExtraOffsets = RowNodes,
+  SliceSums = RowNodes,
+  MeanLight = Marched,
   ViewImage = Marched, ///< debug views run after the passes that read these, or read neither
   ViewExact = Extra,
   ViewMean = EpipolarInscatter,

@@ -3,6 +3,7 @@
 #include "passes/Interpolate.h"
 #include "passes/March.h"
 #include "passes/MarchExtra.h"
+#include "passes/MeanLight.h"
 #include "passes/PixelTree.h"
 #include "passes/Refine.h"
 #include "passes/Rows.h"
@@ -19,10 +20,11 @@
 //
 //   Technique epipolar:  scene depth --> [samples] --> sample ends, marks
 //                        sample ends, rows --> [march] --> marched
+//                        marched --> [mean light] --> mean light
 //                        marks, marched --> [refine] --> refined marks, offsets
 //                        sample ends, refined marks, offsets, rows --> [march extra] --> extra
 //                        sample ends, refined marks, offsets, marched, extra --> [interpolate] --> epipolar inscatter
-//                        epipolar inscatter, scene depth --> [unwarp] --> destination, stencil
+//                        epipolar inscatter, mean light, scene depth --> [unwarp] --> destination, stencil
 //                        pixels that it left, rows --> fix-up --> destination
 //
 namespace tyndall::passes::epipolar {
@@ -41,6 +43,8 @@ Status runEpipolar(SliceContext& context) {
     if (Status s = rows::run(context, {view}, rows); !s) return s;
     if (Status s = march::run(context, {view, rows, samples.ends}, marched); !s) return s;
   }
+  mean_light::Out mean;
+  if (Status s = mean_light::run(context, {marched.marched}, mean); !s) return s;
   if (Status s = refine::run(context, {samples.marks, marched.marched}, refined); !s) return s;
   for (int view = 0; view < context.draws(); ++view) {
     if (context.views() > 1) // only the last view's rows are at hand
@@ -50,7 +54,7 @@ Status runEpipolar(SliceContext& context) {
   }
   const interpolate::In in{samples.ends, refined.marks, refined.offsets, marched.marched, extra};
   if (Status s = interpolate::run(context, in, interpolated); !s) return s;
-  if (Status s = unwarp::run(context, {interpolated.inscatter, rows}); !s) return s;
+  if (Status s = unwarp::run(context, {interpolated.inscatter, mean.mean, rows}); !s) return s;
   return slice_view::run(context, {samples.ends, samples.marks, refined.marks});
 }
 
@@ -77,9 +81,11 @@ std::vector<gl::Variant> allVariants() {
     for (const gl::Variant& pixels : pixel_tree::variantsOf(variant))
       all.push_back(pixels);
     const gl::Definitions definitions = exact::definitionsOf(variant);
-    for (const char* fragment : {"sampleEnds", "marks", "march", "refine", "interpolate", "unwarp"})
+    for (const char* fragment : {"sampleEnds", "marks", "march", "refine", "interpolate", "unwarp", "fixup"})
       all.push_back({std::string("passes/") + fragment + ".frag", definitions});
     all.push_back({"passes/marchExtra.frag", definitions, "passes/strips.vert"});
+    for (const gl::Variant& mean : mean_light::variantsOf(variant))
+      all.push_back(mean);
     for (const gl::Variant& row : rows::variantsOf(variant))
       all.push_back(row);
   }

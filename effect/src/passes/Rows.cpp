@@ -4,9 +4,9 @@ namespace tyndall::passes::rows {
 
 namespace {
 
-int treeNodes(int texels, int levels) {
+int treeNodes(int texels, int finest, int levels) {
   int nodes = 0;
-  for (int level = 2; level <= levels; ++level)
+  for (int level = finest; level <= levels; ++level)
     nodes += texels >> (2 * level);
   return nodes;
 }
@@ -53,15 +53,31 @@ Status run(SliceContext& context, const In& in, Out& out) {
   if (Status s = target(context, Target::RowNodes, room / 16, drawn / 16, nodes); !s) return s;
   if (Status s = context.draw("nodes", "passes/rowNodes.frag", context.definitions); !s) return s;
   context.bind(gl::Unit::RowNodes, nodes);
-  const int roomNodes = treeNodes(room, levels), drawnNodes = treeNodes(drawn, levels);
+  const int roomNodes = treeNodes(room, 2, levels), drawnNodes = treeNodes(drawn, 2, levels);
   if (Status s = target(context, Target::RowTree, roomNodes, drawnNodes, out.tree); !s) return s;
   return context.draw("tree", "passes/rowTree.frag", context.definitions);
+}
+
+Status runPairs(SliceContext& context, const In& in, Out& out) {
+  const int room = context.slices.rowTexels, drawn = context.slices.block.grid.z, levels = context.slices.block.grid.w;
+  if (context.views() == 0 || levels == 0) return {};
+  gl::Uint pairs = 0;
+  context.selectView(in.view);
+  context.bindSlices();
+  bind(context, out);
+  setBlend(context.pass, Blend::Replace);
+  if (Status s = target(context, Target::PairTree, treeNodes(room, 1, levels), treeNodes(drawn, 1, levels), pairs); !s)
+    return s;
+  if (Status s = context.draw("pair tree", "passes/pairTree.frag", context.definitions); !s) return s;
+  out.tree = pairs;
+  return {};
 }
 
 std::vector<gl::Variant> variantsOf(const exact::Variant& variant) {
   if (variant.shadowViews == 0) return {};
   const gl::Definitions definitions = exact::definitionsOf(variant);
-  return {depthsOf(variant), {"passes/rowNodes.frag", definitions}, {"passes/rowTree.frag", definitions}};
+  return {depthsOf(variant), {"passes/rowNodes.frag", definitions}, {"passes/rowTree.frag", definitions},
+          {"passes/pairTree.frag", definitions}};
 }
 
 void bind(const SliceContext& context, const Out& rows) {

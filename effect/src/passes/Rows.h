@@ -1,5 +1,5 @@
 // Rows: the shadow map of one view along every slice, and a min/max tree over each (Chen 2011, 3.2 and 3.3;
-// glsl/passes/rowDepths, rowNodes, rowTree).
+// glsl/passes/rowDepths, rowNodes, rowTree, pairTree).
 #pragma once
 
 #include "passes/SliceContext.h"
@@ -16,6 +16,9 @@ struct Out {
 };
 
 Status run(SliceContext& context, const In& in, Out& out);
+
+/// The tree over each two neighbouring rows, in place of out.tree, for rays that run between them.
+Status runPairs(SliceContext& context, const In& in, Out& out);
 
 /// All programs of a light.
 std::vector<gl::Variant> variantsOf(const exact::Variant& variant);

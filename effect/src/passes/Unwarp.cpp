@@ -4,14 +4,38 @@ namespace tyndall::passes::unwarp {
 
 namespace {
 
-// The pixels that are left, along their slice's tree. With several views only the last one's rows are at hand: those
-// pixels then walk every texel.
+/// The stencil test, while this lives.
+class StencilTest {
+public:
+  StencilTest(const gl::Functions& gl, gl::Enum function, gl::Int reference, gl::Enum passed) : gl_(gl) {
+    gl.Enable(gl::STENCIL_TEST);
+    gl.StencilFunc(function, reference, 0xFF);
+    gl.StencilOp(gl::KEEP, gl::KEEP, passed);
+  }
+  ~StencilTest() { gl_.Disable(gl::STENCIL_TEST); }
+  StencilTest(const StencilTest&) = delete;
+  StencilTest& operator=(const StencilTest&) = delete;
+
+private:
+  const gl::Functions& gl_;
+};
+
+// The pixels that are left, each along its own line between its two slices' rows.
 Status fixUp(SliceContext& context, const In& in) {
-  context.gl.StencilFunc(gl::EQUAL, 0, 0xFF);
-  context.gl.StencilOp(gl::KEEP, gl::KEEP, gl::KEEP);
-  rows::bind(context, in.rows);
-  return context.draw("fix-up", context.views() > 1 ? "passes/exact.frag" : "passes/pixelTree.frag",
-                      context.definitions);
+  rows::Out rows = in.rows;
+  for (int view = 0; view < context.draws(); ++view) {
+    if (context.views() > 1) // only the last view's rows are at hand
+      if (Status s = rows::run(context, {view}, rows); !s) return s;
+    if (Status s = rows::runPairs(context, {view}, rows); !s) return s;
+    context.selectView(view);
+    context.bindSceneDepth();
+    rows::bind(context, rows);
+    if (Status s = context.inputs.attachDestination(true, view == 0); !s) return s;
+    const StencilTest test(context.gl, gl::EQUAL, 0, gl::KEEP);
+    setBlend(context.pass, view == 0 ? context.inputs.blend : Blend::Add);
+    if (Status s = context.draw("fix-up", "passes/fixup.frag", context.definitions); !s) return s;
+  }
+  return {};
 }
 
 } // namespace
@@ -22,23 +46,22 @@ Status run(SliceContext& context, const In& in) {
   context.bindSceneDepth();
   context.bindSlices();
   context.bind(gl::Unit::EpipolarInscatter, in.epipolarInscatter);
+  context.bind(gl::Unit::MeanLight, in.meanLight);
   if (Status s = context.inputs.attachDestination(true, true); !s) return s;
   const gl::Int zero = 0;
   gl.StencilMask(0xFF);
   gl.ClearBufferiv(gl::STENCIL, 0, &zero);
-  gl.Enable(gl::STENCIL_TEST);
-  gl.StencilFunc(gl::ALWAYS, 1, 0xFF);
-  gl.StencilOp(gl::KEEP, gl::KEEP, gl::REPLACE);
   setBlend(context.pass, context.inputs.blend);
   Status status;
-  const std::uint64_t served = context.recorder.countWritten(
-      [&] { status = context.draw("unwarp", "passes/unwarp.frag", context.definitions); });
+  const std::uint64_t served = context.recorder.countWritten([&] {
+    const StencilTest test(gl, gl::ALWAYS, 1, gl::REPLACE);
+    status = context.draw("unwarp", "passes/unwarp.frag", context.definitions);
+  });
   const auto pixels = static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height);
   context.recorder.countFixup(pixels - served);
   context.recorder.countMarched(pixels - served);
   if (status && served == pixels) context.recorder.skip(context.inputs.name + " fix-up", "every pixel was served");
   if (status && served < pixels) status = fixUp(context, in);
-  gl.Disable(gl::STENCIL_TEST);
   return status;
 }
 

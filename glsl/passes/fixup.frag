@@ -1,0 +1,29 @@
+// Fix-up: the pixels that unwarp left, each along its own line, with the pair tree of the slices on both sides of it; one
+// light, one shadow view a draw. Reads the scene depth, slice table, pairTree (as rowTree) and shadow map. Writes as exact.frag does.
+#define SKIPS_NODES
+#include "shared.glsl"
+#include "lib/camera.glsl"
+#include "lib/phase.glsl"
+#include "lib/depth.glsl"
+#include "lib/airlight.glsl"
+#include "lib/slices.glsl"
+#include "lib/shadow.glsl"
+#include "lib/tree.glsl"
+#include "lib/trueLine.glsl"
+#include "lib/row.glsl"
+
+#if COMPOSITE
+layout(location = 0, index = 0) out vec4 outInscatter;
+layout(location = 0, index = 1) out vec4 outTransmittance;
+#else
+layout(location = 0) out vec4 outInscatter;
+layout(location = 1) out vec4 outTransmittance;
+#endif
+
+void main() {
+  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy), 0)), 0.0);
+  int slice = neighbourSlices(sliceCoordinate(gl_FragCoord.xy)).x;
+  vec3 light = vec3(rowShadowedLight(cameraRay(gl_FragCoord.xy), 0.0, end, slice));
+  outInscatter = vec4(min(lightColour.rgb * light, limits.xxx), 0.0);
+  outTransmittance = vec4(transmittanceTo(end), 1.0);
+}
