@@ -381,13 +381,13 @@ Settings settingsOf(Profile profile) {
     Technique technique;
     ShadowFilter filter;
     int slices, samples, rowStep;
-    float breakThreshold, bendThreshold, leastWeight, spreadThreshold;
+    float breakThreshold, bendThreshold, leastWeight;
   };
   constexpr Row kRows[] = {
-      {Technique::Epipolar, ShadowFilter::Nearest, 576, 192, 4, 0.08F, 0.05F, 0.001F, 0.2F}, // performance
-      {Technique::Epipolar, ShadowFilter::Nearest, 768, 256, 3, 0.06F, 0.03F, 0.002F, 0.1F}, // balanced
-      {Technique::Epipolar, ShadowFilter::Nearest, 1152, 512, 1, 0.04F, 0.02F, 0.01F, 0.05F}, // high
-      {Technique::Exact, ShadowFilter::Nearest, 1152, 512, 1, 0.04F, 0.02F, 0.01F, 0.05F},    // reference
+      {Technique::Epipolar, ShadowFilter::Nearest, 576, 192, 4, 0.08F, 0.05F, 0.001F}, // performance
+      {Technique::Epipolar, ShadowFilter::Nearest, 768, 256, 3, 0.06F, 0.03F, 0.002F}, // balanced
+      {Technique::Epipolar, ShadowFilter::Nearest, 1152, 512, 1, 0.04F, 0.02F, 0.01F}, // high
+      {Technique::Exact, ShadowFilter::Nearest, 1152, 512, 1, 0.04F, 0.02F, 0.01F},    // reference
   };
   const Row& row = kRows[static_cast<int>(profile)];
   Settings settings;
@@ -399,7 +399,6 @@ Settings settingsOf(Profile profile) {
   settings.breakThreshold = row.breakThreshold;
   settings.bendThreshold = row.bendThreshold;
   settings.leastWeight = row.leastWeight;
-  settings.spreadThreshold = row.spreadThreshold;
   return settings;
 }
 

@@ -270,7 +270,7 @@ Light segmentLight(Airlight light, ViewSegment segment) {
   Line line;
   Walk walk;
   startWalk(segment, line, walk);
-  int pieces = kPiecesPerCell * walk.left + 1000 * FILTER_BILINEAR; // bounds the loops whatever the arithmetic does
+  int pieces = (kPiecesPerCell + 1) * walk.left + 1000 * FILTER_BILINEAR; // bounds the loops whatever the arithmetic does
   Light sum = Light(0.0);
   Visibility current = Visibility(0.0);
   float from = 0.0;
@@ -280,6 +280,7 @@ Light segmentLight(Airlight light, ViewSegment segment) {
     float begin = 0.0, end = 0.0;
     while (!done && weight == Visibility(0.0)) {
 #ifdef SKIPS_NODES
+      --pieces;
       if (walk.u >= walk.stop) skipNodes(line, current, walk);
 #endif
       bool walking = true;
@@ -288,6 +289,9 @@ Light segmentLight(Airlight light, ViewSegment segment) {
                   takeCell(line, view, walk, current) && takeCell(line, view, walk, current);
       }
       done = walk.left <= 0 || pieces <= 0;
+#ifdef SKIPS_NODES
+      if (!done && walk.u >= walk.stop) continue;
+#endif
       float uCell = cellEnd(line, walk), uEnd = uCell;
 #if FILTER_BILINEAR && LIGHT_KIND == 0
       // A mean visibility stands for a piece only where the airlight hardly changes.
@@ -297,9 +301,6 @@ Light segmentLight(Airlight light, ViewSegment segment) {
 #endif
       Visibility visibility = Visibility(0.0);
       if (!done) visibility = pieceVisibility(line, walk.cell, view, walk.u, uEnd);
-#ifdef SKIPS_NODES
-      if (!done && walk.u >= walk.stop) continue;
-#endif
       if (visibility != current) {
         weight = current;
         begin = from;

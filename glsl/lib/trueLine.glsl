@@ -36,6 +36,7 @@ void skipNodes(Line line, Visibility current, inout Walk walk) {
   int end = ((at.index >> 2) + 1) << 2;
   walk.stop = rowEnd(trueRow, at, end);
   if (walk.stop <= walk.u) walk.stop = rowEnd(trueRow, at, end + 4); // rounding left the walk a step behind
+  if (walk.stop >= 1.0) walk.stop = 2.0; // the line's last cells, however they round
 }
 
 Light ownedLight(Airlight light, ViewSegment segment, int slice) {

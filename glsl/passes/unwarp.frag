@@ -1,7 +1,7 @@
 // Unwarp: from slices to pixels, bilinear over two slices and two samples each, each sample weighted by how well its
 // distance agrees with the pixel's (Yusov 2013, "Transformation from epipolar to rectangular coordinates"). A pixel that no
 // sample serves, or whose samples differ by a share of the picture's mean, is discarded, so that its stencil stays for the
-// fix-up. Reads the slice table, epipolarInscatter, meanLight and the scene depth. Writes inscatter and transmittance as exact.frag does.
+// fix-up. Reads the slice table, epipolarInscatter, the scene depth and, with SPREAD 1, meanLight. Writes inscatter and transmittance as exact.frag does.
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
@@ -11,7 +11,9 @@
 #include "lib/stored.glsl"
 
 uniform sampler2D epipolarInscatter;
+#if SPREAD
 uniform sampler2D meanLight;
+#endif
 
 #if COMPOSITE
 layout(location = 0, index = 0) out vec4 outInscatter;
@@ -41,9 +43,11 @@ void addSlice(int slice, float sliceWeight, vec2 p, float end, inout Sums sums) 
     float weight = sliceWeight * (k == 0 ? 1.0 - f : f), sampleEnd = storedCoordinate(stored);
     float agreement = min(1.0, thresholds.w / max(abs(sampleEnd - end), 1e-20));
     agreement *= agreement;
-    float agreeing = weight * agreement * agreement, brightest = brightestOf(stored);
+    float agreeing = weight * agreement * agreement;
     sums.agreeing += agreeing * vec4(stored.rgb, 1.0);
-    sums.squares += agreeing * brightest * brightest;
+#if SPREAD
+    sums.squares += agreeing * brightestOf(stored) * brightestOf(stored);
+#endif
     sums.plain += weight * vec4(stored.rgb, sampleEnd);
     sums.plainWeight += weight;
   }
@@ -68,10 +72,12 @@ void main() {
   const float kNear = LIGHT_KIND == 0 ? EPIPOLE_GAP : LAMP_PIXELS;
   if (distance(gl_FragCoord.xy * epipole.z, epipole.xy) < (epipole.z > 0.0 ? kNear : EPIPOLE_GAP) * abs(epipole.z)) discard;
   if (!(sum.w >= thresholds.y && sum.w > 0.0)) discard;
+#if SPREAD
   // Samples that agree with the pixel but not with each other: edges of shadows run between them.
   float least = spread.x * texelFetch(meanLight, ivec2(0), 0).r * lampSine(ray) * sums.agreeing.w;
   float brightest = brightestOf(sums.agreeing);
   if (sums.squares * sums.agreeing.w - brightest * brightest > least * least) discard;
+#endif
   outInscatter = vec4(min(lightFromStored(sum.rgb / sum.w, ray), limits.xxx), 0.0);
   outTransmittance = vec4(transmittanceTo(end), 1.0);
 }

@@ -11,6 +11,8 @@
 #include "passes/SliceView.h"
 #include "passes/Unwarp.h"
 
+#include <cmath>
+
 // One light. Boxes are passes, the rest are textures (Targets.cpp); [rows] and both marches run once a shadow view.
 //
 //   light, camera --> [slices] --> slice table, which all passes read
@@ -44,7 +46,8 @@ Status runEpipolar(SliceContext& context) {
     if (Status s = march::run(context, {view, rows, samples.ends}, marched); !s) return s;
   }
   mean_light::Out mean;
-  if (Status s = mean_light::run(context, {marched.marched}, mean); !s) return s;
+  if (std::isfinite(context.inputs.frame->settings.spreadThreshold))
+    if (Status s = mean_light::run(context, {marched.marched}, mean); !s) return s;
   if (Status s = refine::run(context, {samples.marks, marched.marched}, refined); !s) return s;
   for (int view = 0; view < context.draws(); ++view) {
     if (context.views() > 1) // only the last view's rows are at hand
@@ -81,9 +84,11 @@ std::vector<gl::Variant> allVariants() {
     for (const gl::Variant& pixels : pixel_tree::variantsOf(variant))
       all.push_back(pixels);
     const gl::Definitions definitions = exact::definitionsOf(variant);
-    for (const char* fragment : {"sampleEnds", "marks", "march", "refine", "interpolate", "unwarp", "fixup"})
+    for (const char* fragment : {"sampleEnds", "marks", "march", "refine", "interpolate"})
       all.push_back({std::string("passes/") + fragment + ".frag", definitions});
     all.push_back({"passes/marchExtra.frag", definitions, "passes/strips.vert"});
+    for (const gl::Variant& unwarped : unwarp::variantsOf(variant))
+      all.push_back(unwarped);
     for (const gl::Variant& mean : mean_light::variantsOf(variant))
       all.push_back(mean);
     for (const gl::Variant& row : rows::variantsOf(variant))

@@ -18,15 +18,16 @@ Status target(SliceContext& context, Target which, int height, int drawn, gl::Ui
   return {};
 }
 
-gl::Variant depthsOf(const exact::Variant& variant) {
+// Draws what has one fragment for four texels of a row, where rows are.
+gl::Variant inStrips(const char* fragment, const exact::Variant& variant) {
   gl::Definitions definitions = exact::definitionsOf(variant);
   definitions.emplace_back("STRIPS_OF_ROWS", 1);
-  return {"passes/rowDepths.frag", definitions, "passes/strips.vert"};
+  return {fragment, definitions, "passes/strips.vert"};
 }
 
-Status drawDepths(SliceContext& context) {
-  const gl::Variant v = depthsOf(context.inputs.variant);
-  const bool ok = context.recorder.run(context.inputs.name + " rows", [&] {
+Status drawStrips(SliceContext& context, const char* name, const char* fragment) {
+  const gl::Variant v = inStrips(fragment, context.inputs.variant);
+  const bool ok = context.recorder.run(context.inputs.name + " " + name, [&] {
     return drawStrips(context.pass, v.vertex, context.slices.count, v.fragment, v.definitions);
   });
   return ok ? Status{} : context.shaderError();
@@ -43,7 +44,7 @@ Status run(SliceContext& context, const In& in, Out& out) {
   context.bindMaps();
   setBlend(context.pass, Blend::Replace);
   if (Status s = target(context, Target::RowDepths, room / 4, drawn / 4, out.depths); !s) return s;
-  if (Status s = drawDepths(context); !s) return s;
+  if (Status s = drawStrips(context, "rows", "passes/rowDepths.frag"); !s) return s;
   if (levels == 0) {
     context.recorder.skip(context.inputs.name + " tree", "settings.minMaxTree is false");
     out.tree = out.depths; // bound, never read
@@ -66,8 +67,10 @@ Status runPairs(SliceContext& context, const In& in, Out& out) {
   context.bindSlices();
   bind(context, out);
   setBlend(context.pass, Blend::Replace);
-  if (Status s = target(context, Target::PairTree, treeNodes(room, 1, levels), treeNodes(drawn, 1, levels), pairs); !s)
-    return s;
+  const int groups = drawn / 4;
+  if (Status s = target(context, Target::PairTree, treeNodes(room, 1, levels), groups, pairs); !s) return s;
+  if (Status s = drawStrips(context, "pair groups", "passes/pairTree.frag"); !s) return s;
+  context.gl.Viewport(0, groups, context.slices.count, treeNodes(drawn, 2, levels));
   if (Status s = context.draw("pair tree", "passes/pairTree.frag", context.definitions); !s) return s;
   out.tree = pairs;
   return {};
@@ -76,7 +79,8 @@ Status runPairs(SliceContext& context, const In& in, Out& out) {
 std::vector<gl::Variant> variantsOf(const exact::Variant& variant) {
   if (variant.shadowViews == 0) return {};
   const gl::Definitions definitions = exact::definitionsOf(variant);
-  return {depthsOf(variant), {"passes/rowNodes.frag", definitions}, {"passes/rowTree.frag", definitions},
+  return {inStrips("passes/rowDepths.frag", variant), {"passes/rowNodes.frag", definitions},
+          {"passes/rowTree.frag", definitions},         inStrips("passes/pairTree.frag", variant),
           {"passes/pairTree.frag", definitions}};
 }
 

@@ -20,20 +20,28 @@ private:
   const gl::Functions& gl_;
 };
 
-// The pixels that are left, each along its own line between its two slices' rows.
+gl::Definitions definitionsOf(const exact::Variant& variant, bool spread) {
+  gl::Definitions definitions = exact::definitionsOf(variant);
+  definitions.emplace_back("SPREAD", spread ? 1 : 0);
+  return definitions;
+}
+
+// The pixels that are left: along their slice's row, or, where it is the slices that disagree, along their own line.
 Status fixUp(SliceContext& context, const In& in) {
   rows::Out rows = in.rows;
   for (int view = 0; view < context.draws(); ++view) {
     if (context.views() > 1) // only the last view's rows are at hand
       if (Status s = rows::run(context, {view}, rows); !s) return s;
-    if (Status s = rows::runPairs(context, {view}, rows); !s) return s;
+    if (in.meanLight)
+      if (Status s = rows::runPairs(context, {view}, rows); !s) return s;
     context.selectView(view);
     context.bindSceneDepth();
     rows::bind(context, rows);
     if (Status s = context.inputs.attachDestination(true, view == 0); !s) return s;
     const StencilTest test(context.gl, gl::EQUAL, 0, gl::KEEP);
     setBlend(context.pass, view == 0 ? context.inputs.blend : Blend::Add);
-    if (Status s = context.draw("fix-up", "passes/fixup.frag", context.definitions); !s) return s;
+    const char* shader = in.meanLight ? "passes/fixup.frag" : "passes/pixelTree.frag";
+    if (Status s = context.draw("fix-up", shader, context.definitions); !s) return s;
   }
   return {};
 }
@@ -46,7 +54,7 @@ Status run(SliceContext& context, const In& in) {
   context.bindSceneDepth();
   context.bindSlices();
   context.bind(gl::Unit::EpipolarInscatter, in.epipolarInscatter);
-  context.bind(gl::Unit::MeanLight, in.meanLight);
+  if (in.meanLight) context.bind(gl::Unit::MeanLight, in.meanLight);
   if (Status s = context.inputs.attachDestination(true, true); !s) return s;
   const gl::Int zero = 0;
   gl.StencilMask(0xFF);
@@ -55,7 +63,7 @@ Status run(SliceContext& context, const In& in) {
   Status status;
   const std::uint64_t served = context.recorder.countWritten([&] {
     const StencilTest test(gl, gl::ALWAYS, 1, gl::REPLACE);
-    status = context.draw("unwarp", "passes/unwarp.frag", context.definitions);
+    status = context.draw("unwarp", "passes/unwarp.frag", definitionsOf(context.inputs.variant, in.meanLight != 0));
   });
   const auto pixels = static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height);
   context.recorder.countFixup(pixels - served);
@@ -63,6 +71,12 @@ Status run(SliceContext& context, const In& in) {
   if (status && served == pixels) context.recorder.skip(context.inputs.name + " fix-up", "every pixel was served");
   if (status && served < pixels) status = fixUp(context, in);
   return status;
+}
+
+std::vector<gl::Variant> variantsOf(const exact::Variant& variant) {
+  return {{"passes/unwarp.frag", definitionsOf(variant, false)},
+          {"passes/unwarp.frag", definitionsOf(variant, true)},
+          {"passes/fixup.frag", exact::definitionsOf(variant)}};
 }
 
 } // namespace tyndall::passes::unwarp

@@ -70,6 +70,11 @@ const std::vector<Knob> kKnobs = {
      {kNan, -1e-6, 1.000001, kInf, -kInf},
      {0, 1e-38, 1},
      "must be 0 to 1"},
+    {"spreadThreshold",
+     [](Settings& s, double v) { s.spreadThreshold = static_cast<float>(v); },
+     {kNan, 0, -0.1, -kInf},
+     {1e-38, 0.05, kInf},
+     "must be > 0"},
 };
 
 // A map of stripes that are wide against a texel, in front of and behind what the eye sees.
