@@ -21,7 +21,7 @@ bool takeGroup(RowLine line, inout RowWalk walk, int slice, float current) {
   VISIT
   int next = ((walk.index >> 2) + 1) << 2;
   float u = rowEnd(line, walk, next);
-  vec2 bounds = texelFetch(rowDepths, ivec2(slice, walk.index >> 2), 0).xy;
+  vec2 bounds = texelFetch(rowDepths, ivec2(walk.index >> 2, slice), 0).xy;
   if (walk.index > line.last || boundsVisibility(line, walk, u, bounds) != current) return false;
   advanceRow(line, walk, next, u);
   return true;

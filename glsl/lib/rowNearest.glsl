@@ -3,7 +3,7 @@
 // Looks at the walk's texel and those behind it in its group of four for the first change of visibility; `at` is where.
 bool changeInGroup(RowLine line, inout RowWalk walk, int slice, bool lit, inout float at) {
   VISIT
-  vec4 depths = texelFetch(rowDepths, ivec2(slice, walk.index >> 2), 0);
+  vec4 depths = texelFetch(rowDepths, ivec2(walk.index >> 2, slice), 0);
   int first = walk.index & ~3;
   bool changed = false;
   for (int k = 0; k < 4; ++k) {

@@ -1,8 +1,8 @@
 // Visibility along a slice's row, with a min/max tree over it (Chen 2011, 3.3; Yusov 2013). The row holds the shadow map's
 // texels along the slice, one per step; all rays of the slice run along it, each with its own linear depth.
 //
-// rowDepths: slices x texels / 4, RGBA: four depths, or, where more than the texels themselves decides (2x2 filter, glass),
-// the bounds of the four in x, y. rowTree: slices x nodes, RG: min and max of 16 texels (level 2), then of 64, 256, ...
+// rowDepths: texels / 4 x slices, RGBA: four depths, or, where more than the texels themselves decides (2x2 filter, glass),
+// the bounds of the four in x, y. rowTree: nodes x slices, RG: min and max of 16 texels (level 2), then of 64, 256, ...
 // (levels 3, 4, ...). Level l of a row of T texels holds T / 4^l nodes, behind those of the levels below. Depths grow away
 // from the light and are coded (rowCode): 16-bit where the light's depth is linear, else float.
 
@@ -81,7 +81,7 @@ float walkNodes(RowLine line, inout RowWalk walk, int slice, float current) {
     VISIT
     int node = walk.index >> (2 * level), next = (node + 1) << (2 * level);
     float u = rowEnd(line, walk, next);
-    found = boundsVisibility(line, walk, u, texelFetch(rowTree, ivec2(slice, base + node), 0).rg);
+    found = boundsVisibility(line, walk, u, texelFetch(rowTree, ivec2(base + node, slice), 0).rg);
     if (found == current) {
       advanceRow(line, walk, next, u);
       bool up = level < grid.w && (next & ((4 << (2 * level)) - 1)) == 0;

@@ -1,6 +1,6 @@
 // Pair tree: bounds over the rows of each slice and of the next, for rays that run between the two. Its levels lie behind
 // one another, groups of four texels (level 1) first.
-// Reads the slice table, rowDepths and rowTree. Writes pairTree: slices x nodes, RG.
+// Reads the slice table, rowDepths and rowTree. Writes pairTree: nodes x slices, RG.
 #include "shared.glsl"
 #include "lib/slices.glsl"
 uniform sampler2D rowDepths;
@@ -10,8 +10,8 @@ layout(location = 0) out vec4 outBounds;
 
 // A node of a level that begins at `base` in rowTree.
 vec2 nodeOf(int slice, int level, int base, int node) {
-  if (level > 1) return texelFetch(rowTree, ivec2(slice, base + node), 0).rg;
-  vec4 a = texelFetch(rowDepths, ivec2(slice, node), 0);
+  if (level > 1) return texelFetch(rowTree, ivec2(base + node, slice), 0).rg;
+  vec4 a = texelFetch(rowDepths, ivec2(node, slice), 0);
 #if FILTER_BILINEAR || GLASS
   return a.xy;
 #else
@@ -20,13 +20,13 @@ vec2 nodeOf(int slice, int level, int base, int node) {
 }
 
 void main() {
-  int slice = int(gl_FragCoord.x), other = neighbourSlices(float(slice) + 0.5).y;
-  int node = int(gl_FragCoord.y), level = 1;
+  int slice = int(gl_FragCoord.y), other = neighbourSlices(float(slice) + 0.5).y;
+  int node = int(gl_FragCoord.x), level = 1;
   while (node >= grid.z >> (2 * level) && level < grid.w) {
     node -= grid.z >> (2 * level);
     ++level;
   }
-  int base = int(gl_FragCoord.y) - node - grid.z / 4;
+  int base = int(gl_FragCoord.x) - node - grid.z / 4;
   // The nodes of the other row beside this one.
   vec4 row = texelFetch(sliceTable, ivec2(slice, march.y), 0), beside = texelFetch(sliceTable, ivec2(other, march.y), 0);
   vec2 along = beside.zw / dot(beside.zw, beside.zw), ends;

@@ -1,5 +1,5 @@
 // Row depths: the shadow map along each slice, one texel a step, four steps a fragment (Chen 2011, 3.2).
-// Reads the slice table and the shadow map (glass map) of one view. Writes rowDepths: slices x texels / 4, RGBA16 or
+// Reads the slice table and the shadow map (glass map) of one view. Writes rowDepths: texels / 4 x slices, RGBA16 or
 // RGBA32F, coded depths; what lies behind a row's end is not read.
 #include "shared.glsl"
 #include "lib/slices.glsl"
@@ -40,7 +40,7 @@ vec2 codedBounds(vec2 p, int view) {
 }
 
 void main() {
-  int slice = int(gl_FragCoord.x), first = 4 * int(gl_FragCoord.y), view = march.x;
+  int slice = int(gl_FragCoord.y), first = 4 * int(gl_FragCoord.x), view = march.x;
   vec4 row = texelFetch(sliceTable, ivec2(slice, march.y), 0);
   vec2 p = row.xy + row.zw * (float(first) + 0.5);
   vec2 a = codedBounds(p, view), b = codedBounds(p + row.zw, view);

@@ -1,4 +1,5 @@
-// Strips: one rectangle per 64 slices, as high as the fullest of them needs, in a target of slices x fragments.
+// Strips: one rectangle per 64 slices, as long as the fullest of them needs, in a target of slices x fragments or,
+// for the rows, fragments x slices.
 // Reads, for the rows (STRIPS_OF_ROWS 1: four texels a fragment), the slice table, or, for the extra march samples (four
 // a fragment), extraOffsets. Draws 6 vertices an instance.
 #include "shared.glsl"
@@ -22,6 +23,9 @@ void main() {
     rows = max(rows, fragmentsOf(min(kWidth * gl_InstanceID + i, grid.x - 1)));
   bool right = gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4;
   bool top = gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5;
-  vec2 corner = vec2(kWidth * (gl_InstanceID + (right ? 1 : 0)), top ? rows : 0.0);
-  gl_Position = vec4(2.0 * corner / vec2(grid.x, room()) - 1.0, 0.0, 1.0);
+  vec2 corner = vec2(kWidth * (gl_InstanceID + (right ? 1 : 0)), top ? rows : 0.0) / vec2(grid.x, room());
+#if STRIPS_OF_ROWS
+  corner = corner.yx;
+#endif
+  gl_Position = vec4(2.0 * corner - 1.0, 0.0, 1.0);
 }

@@ -12,9 +12,9 @@ int treeNodes(int texels, int finest, int levels) {
 }
 
 // Makes a row texture of full size the target; only this frame's rows are drawn.
-Status target(SliceContext& context, Target which, int height, int drawn, gl::Uint& texture) {
-  if (Status s = context.target(which, context.slices.count, height, texture); !s) return s;
-  context.gl.Viewport(0, 0, context.slices.count, drawn);
+Status target(SliceContext& context, Target which, int width, int drawn, gl::Uint& texture) {
+  if (Status s = context.target(which, width, context.slices.count, texture); !s) return s;
+  context.gl.Viewport(0, 0, drawn, context.slices.count);
   return {};
 }
 
@@ -70,7 +70,7 @@ Status runPairs(SliceContext& context, const In& in, Out& out) {
   const int groups = drawn / 4;
   if (Status s = target(context, Target::PairTree, treeNodes(room, 1, levels), groups, pairs); !s) return s;
   if (Status s = drawStrips(context, "pair groups", "passes/pairTree.frag"); !s) return s;
-  context.gl.Viewport(0, groups, context.slices.count, treeNodes(drawn, 2, levels));
+  context.gl.Viewport(groups, 0, treeNodes(drawn, 2, levels), context.slices.count);
   if (Status s = context.draw("pair tree", "passes/pairTree.frag", context.definitions); !s) return s;
   out.tree = pairs;
   return {};
