@@ -63,9 +63,9 @@ private:
   Read marched(double n) const { return {marchedFormat(), shape_.slices, samples_ / 16 + 1, n}; }
   Read extra(double n) const { return {extraFormat(), shape_.slices, samples_ / 4, n}; }
   Read epipolarInscatter(double n) const { return {inscatterFormat(), shape_.slices, samples_, n}; }
-  Read rowDepths(double n) const { return {GL_RGBA16, shape_.slices, shape_.rowTexels / 4, n}; }
-  Read rowNodes(double n) const { return {GL_RG16, shape_.slices, shape_.rowTexels / 16, n}; }
-  Read rowTree(double n) const { return {GL_RG16, shape_.slices, treeNodes_, n}; }
+  Read rowDepths(double n) const { return {GL_RGBA16, shape_.rowTexels / 4, shape_.slices, n}; }
+  Read rowNodes(double n) const { return {GL_RG16, shape_.rowTexels / 16, shape_.slices, n}; }
+  Read rowTree(double n) const { return {GL_RG16, treeNodes_, shape_.slices, n}; }
 
   GLenum marchedFormat() const { return coloured_ ? GL_RGBA16F : GL_R32F; }
   GLenum extraFormat() const { return coloured_ ? GL_RGBA16F : GL_RGBA32F; }

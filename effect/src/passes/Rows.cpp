@@ -79,8 +79,10 @@ Status runPairs(SliceContext& context, const In& in, Out& out) {
 std::vector<gl::Variant> variantsOf(const exact::Variant& variant) {
   if (variant.shadowViews == 0) return {};
   const gl::Definitions definitions = exact::definitionsOf(variant);
-  return {inStrips("passes/rowDepths.frag", variant), {"passes/rowNodes.frag", definitions},
-          {"passes/rowTree.frag", definitions},         inStrips("passes/pairTree.frag", variant),
+  return {inStrips("passes/rowDepths.frag", variant),
+          {"passes/rowNodes.frag", definitions},
+          {"passes/rowTree.frag", definitions},
+          inStrips("passes/pairTree.frag", variant),
           {"passes/pairTree.frag", definitions}};
 }
 

@@ -7,8 +7,8 @@ namespace tyndall::passes {
 namespace {
 
 bool isWide(const SliceContext& context, Target which) {
-  const bool depths = which == Target::RowDepths || which == Target::RowNodes || which == Target::RowTree ||
-                      which == Target::PairTree;
+  const bool depths =
+      which == Target::RowDepths || which == Target::RowNodes || which == Target::RowTree || which == Target::PairTree;
   return depths ? context.slices.block.rowCode.w == 0 : context.isColoured();
 }
 

@@ -1,5 +1,6 @@
 // Unwarp: from slices to pixels, then the fix-up of those that no sample serves, or that an edge of a shadow between
-// two slices crosses (Yusov 2013, "Transformation from epipolar to rectangular coordinates"; glsl/passes/unwarp, fixup).
+// two slices crosses (Yusov 2013, "Transformation from epipolar to rectangular coordinates"; glsl/passes/unwarp,
+// fixup).
 #pragma once
 
 #include "passes/Rows.h"
@@ -9,7 +10,7 @@ namespace tyndall::passes::unwarp {
 struct In {
   gl::Uint epipolarInscatter = 0;
   gl::Uint meanLight = 0; ///< 0: settings.spreadThreshold is infinite
-  rows::Out rows; ///< of the last view: with several, the fix-up makes them once more
+  rows::Out rows;         ///< of the last view: with several, the fix-up makes them once more
 };
 
 /// Writes to the light's destination; leaves 0 in the stencil of the pixels that were fixed up, 1 in the others'.
