@@ -44,7 +44,8 @@ UNIFORM_BLOCK(EpipolarBlock) {
   vec4 border;        // low x, low y, high x, high y
   vec4 sliceMap;      // arc length of the border where the slices begin, arc length per slice, perimeter; w: 1 if closed
   vec4 thresholds;    // x: relative change of distance that is a break, y: least bilateral weight, z: bend of the inscatter that is refined
-  vec4 spread;        // x: spread of the samples around a pixel, as a part of the picture's mean, over which it is marched by itself
+  vec4 spread;        // x: spread of the samples around a pixel, as a part of the picture's mean, over which it is marched by itself;
+                      // y: optical depth of a stretch of a row that is taken by its average
   vec4 rowCode;       // coded depth of a row = x depth + y; z: that of a texel without a caster; w: 65535 if it is stored in 16 bit, else 0
   ivec4 grid;         // slices, samples, texels of a row, levels of the tree or 0: none
   ivec4 march;        // shadow view of a draw, its first table row; z: 1 for the draw that brings what is outside all views

@@ -184,6 +184,8 @@ Status checkSettings(const Settings& settings) {
     return invalid("settings.bendThreshold", text(settings.bendThreshold), "must be > 0");
   if (!(settings.leastWeight >= 0 && settings.leastWeight <= 1))
     return invalid("settings.leastWeight", text(settings.leastWeight), "must be 0 to 1");
+  if (!(settings.averageThreshold >= 0 && settings.averageThreshold <= 1))
+    return invalid("settings.averageThreshold", text(settings.averageThreshold), "must be 0 to 1");
   if (!(settings.spreadThreshold > 0))
     return invalid("settings.spreadThreshold", text(settings.spreadThreshold), "must be > 0");
   return {};

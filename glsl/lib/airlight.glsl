@@ -37,6 +37,12 @@ float steadyLength(Airlight light, float s) {
   return 0.1 / max(sigma * (1.0 + abs(light.pathSlope)), 1e-30);
 }
 
+// The longest span over which a line stands for the airlight: of an optical depth of at most `most`.
+float evenLength(Airlight light, float most) {
+  float sigma = max(extinction.r, max(extinction.g, extinction.b));
+  return most / max(sigma * (1.0 + abs(light.pathSlope)), 1e-30);
+}
+
 // integral of exp(-sigma (e0 + (s - s0) slope)) over a span of the given length: from its dimmer exponent, so that the
 // exponential never grows.
 Spectrum exponentialSpan(float e0, float slope, float len) {
@@ -61,6 +67,14 @@ Spectrum airlight(Airlight light, float s0, float s1) {
   return light.phase * sum;
 }
 
+// Light of a span where the visibility has a mean and a first moment (from -1 to 1 over the span): over a short one the airlight
+// falls along a line.
+Spectrum weightedLight(Airlight light, float s0, float s1, vec2 weight) {
+  bool attenuated = light.path + 0.5 * (s0 + s1) * light.pathSlope > 0.0;
+  Spectrum fall = SPECTRUM(extinction) * ((attenuated ? 1.0 + light.pathSlope : 1.0) * (s1 - s0));
+  return airlight(light, s0, s1) * (weight.x - 0.5 * weight.y * fall);
+}
+
 #else
 
 struct Airlight {
@@ -73,6 +87,13 @@ struct Airlight {
   vec2 lit, inner;           // intervals of s inside the outer and inside the inner cone
 #endif
 };
+
+// The longest span over which a line stands for the airlight: `most` bounds its optical depth and its length by the distance
+// to the lamp at its nearest, a quarter of it where a cone's edge may lie in the span.
+float evenLength(Airlight light, float most) {
+  float sigma = max(extinction.r, max(extinction.g, extinction.b));
+  return min(0.5 * most / max(sigma, 1e-30), (LIGHT_KIND == 2 ? 0.25 : 1.0) * most * sqrt(light.height2));
+}
 
 #if LIGHT_KIND == 2
 // The interval of t = s - foot in which the ray is inside a cone (x: cosine >= 0, y: squared sine of its half angle):
@@ -244,6 +265,13 @@ Spectrum airlight(Airlight light, float s0, float s1) {
 #else
   return pointPiece(light, s0, s1);
 #endif
+}
+
+Spectrum weightedLight(Airlight light, float s0, float s1, vec2 weight) {
+  Spectrum sum = airlight(light, s0, s1);
+  if (weight.y == 0.0) return weight.x * sum;
+  Spectrum half = airlight(light, s0, 0.5 * (s0 + s1));
+  return weight.x * sum + 2.0 * weight.y * (sum - 2.0 * half);
 }
 
 #endif

@@ -22,7 +22,7 @@ bool takeGroup(RowLine line, inout RowWalk walk, int slice, float current) {
   int next = ((walk.index >> 2) + 1) << 2;
   float u = rowEnd(line, walk, next);
   vec2 bounds = texelFetch(rowDepths, ivec2(walk.index >> 2, slice), 0).xy;
-  if (walk.index > line.last || boundsVisibility(line, walk, u, bounds) != current) return false;
+  if (walk.index > line.last || boundsVisibility(walk.depth, rowDepth(line, u), bounds) != current) return false;
   advanceRow(line, walk, next, u);
   return true;
 }
@@ -31,18 +31,19 @@ bool takeGroup(RowLine line, inout RowWalk walk, int slice, float current) {
 Light rowLight(Airlight light, ViewSegment segment, int slice) {
   RowLine line;
   RowWalk walk;
-  startRow(segment, slice, line, walk);
+  startRow(light, segment, slice, line, walk);
   int guard = (8 + 4 * GLASS) * (line.last - walk.index + 1) + 16; // bounds the loops whatever the arithmetic does
   Light sum = Light(0.0);
   Visibility current = Visibility(0.0);
   float from = 0.0;
+  int unused, unused2;
   bool done = false;
   while (!done) {
     Visibility weight = Visibility(0.0);
     vec2 span = vec2(0.0);
     while (!done && weight == Visibility(0.0)) {
       float state = current == Visibility(1.0) ? 1.0 : current == Visibility(0.0) ? 0.0 : -1.0;
-      float found = walkNodes(line, walk, slice, state);
+      float found = walkNodes(line, walk, slice, state, unused, unused2);
       int nodeEnd = ((walk.index >> 4) + 1) << 4;
       bool taking = grid.w > 0 && found == kMixed;
       while (taking) taking = takeGroup(line, walk, slice, state) && walk.index < nodeEnd;

@@ -21,28 +21,38 @@ bool changeInGroup(RowLine line, inout RowWalk walk, int slice, bool lit, inout 
   return changed;
 }
 
-// The same integral as segmentLight, over the slice's row. The inner loop finds the next lit span.
+// The same integral as segmentLight, over the slice's row. The inner loop finds the next lit span, or a node that its
+// average stands for, which ends a lit span before it.
 Light rowLight(Airlight light, ViewSegment segment, int slice) {
   RowLine line;
   RowWalk walk;
-  startRow(segment, slice, line, walk);
+  startRow(light, segment, slice, line, walk);
   Light sum = Light(0.0);
   bool lit = false, done = false;
   float from = 0.0;
   while (!done) {
-    vec2 span = vec2(0.0);
+    vec2 span = vec2(0.0), weight = vec2(1.0, 0.0); // mean of the visibility, and its first moment
     while (!done && span.y == 0.0) {
-      float found = walkNodes(line, walk, slice, lit ? 1.0 : 0.0), at = walk.u;
+      int nodeEnd = 0, average = 0;
+      float found = walkNodes(line, walk, slice, lit ? 1.0 : 0.0, nodeEnd, average), at = walk.u;
       done = walk.index > line.last;
-      bool changed = !done && found != kMixed;
-      if (!done && !changed) changed = changeInGroup(line, walk, slice, lit, at);
+      bool averaged = !done && !lit && found == kAverage, changed = !done && !averaged && found != kMixed;
+      if (averaged) {
+        float u = rowEnd(line, walk, nodeEnd);
+        span = vec2(walk.u, u);
+        weight = averageOf(texelFetch(rowAverages, ivec2(average, slice), 0));
+        advanceRow(line, walk, nodeEnd, u);
+        done = walk.index > line.last;
+      } else if (!done && !changed) {
+        changed = changeInGroup(line, walk, slice, lit, at);
+      }
       if (lit && (changed || done)) span = vec2(from, done ? 1.0 : at);
       if (changed) {
         lit = !lit;
         from = at;
       }
     }
-    sum += Light(airlight(light, distanceAt(segment, span.x), distanceAt(segment, span.y)));
+    sum += weightedLight(light, distanceAt(segment, span.x), distanceAt(segment, span.y), weight);
   }
   return sum;
 }

@@ -2,7 +2,7 @@
 // texels along the slice, one per step; all rays of the slice run along it, each with its own linear depth.
 //
 // rowDepths: texels / 4 x slices, RGBA: four depths, or, where more than the texels themselves decides (2x2 filter, glass),
-// the bounds of the four in x, y. rowTree: nodes x slices, RG: min and max of 16 texels (level 2), then of 64, 256, ...
+// the bounds of the four in x, y. rowTree: nodes x slices, RGBA: splits (lib/split.glsl) of 16 texels (level 2), then of 64, 256, ...
 // (levels 3, 4, ...). Level l of a row of T texels holds T / 4^l nodes, behind those of the levels below. Depths grow away
 // from the light and are coded (rowCode): 16-bit where the light's depth is linear, else float.
 
@@ -16,8 +16,11 @@ int visits = 0;
 
 #if SHADOW_VIEWS > 0
 
+#include "lib/split.glsl"
+
 uniform sampler2D rowDepths;
 uniform sampler2D rowTree;
+uniform sampler2D rowAverages;
 
 // A ray on its row: u runs from 0 to 1 over the segment, the row index at u is begin + u * extent.
 struct RowLine {
@@ -25,6 +28,8 @@ struct RowLine {
   float begin, inverse; // inverse: 1 / extent, or 0 if the ray does not move along the row
   float depth, slope;   // coded
   int last; // index of the last texel
+  int firstWhole; // first texel that the ray crosses whole
+  int evenLevel;  // coarsest level at which a line stands for the airlight over a node
 };
 
 struct RowWalk {
@@ -35,7 +40,7 @@ struct RowWalk {
 // Coded depth of the ray; nothing lies behind what a texel without a caster holds.
 float rowDepth(RowLine line, float u) { return min(line.depth + line.slope * u, rowCode.z); }
 
-void startRow(ViewSegment segment, int slice, out RowLine line, out RowWalk walk) {
+void startRow(Airlight light, ViewSegment segment, int slice, out RowLine line, out RowWalk walk) {
   vec4 row = texelFetch(sliceTable, ivec2(slice, march.y), 0);
   line.origin = row.xy;
   line.step = row.zw;
@@ -46,6 +51,10 @@ void startRow(ViewSegment segment, int slice, out RowLine line, out RowWalk walk
   walk.index = clamp(int(floor(line.begin)), 0, highest);
   line.last = clamp(int(floor(end)), walk.index, highest);
   line.inverse = line.last > walk.index ? 1.0 / (end - line.begin) : 0.0;
+  line.firstWhole = int(ceil(line.begin));
+  // The longest texel of a projection that may be a perspective one.
+  float texel = (segment.s1 - segment.s0) * line.inverse * max(segment.w0 / segment.w1, segment.w1 / segment.w0);
+  line.evenLevel = int(floor(0.5 * log2(clamp(evenLength(light, spread.y) / max(texel, 1e-30), 1.0, 1e9))));
   line.depth = segment.p0.z * rowCode.x + rowCode.y;
   line.slope = (segment.p1.z - segment.p0.z) * rowCode.x;
   walk.u = 0.0;
@@ -65,30 +74,44 @@ void advanceRow(RowLine line, inout RowWalk walk, int index, float u) {
 
 const float kMixed = 0.5;
 
-// Visibility of [walk.u, u] among stored depths between the bounds: 1 all lit, 0 all dark, or kMixed.
-float boundsVisibility(RowLine line, RowWalk walk, float u, vec2 bounds) {
-  float end = rowDepth(line, u);
-  return max(walk.depth, end) <= bounds.x ? 1.0 : min(walk.depth, end) > bounds.y ? 0.0 : kMixed;
+// Visibility of a stretch from one coded depth to another among stored depths between the bounds: 1 all lit, 0 all dark,
+// or kMixed.
+float boundsVisibility(float begin, float end, vec2 bounds) {
+  return max(begin, end) <= bounds.x ? 1.0 : min(begin, end) > bounds.y ? 0.0 : kMixed;
+}
+
+const float kAverage = 2.0;
+
+// True if the ray crosses all of a node, between the depths that split it, and the airlight is even enough there for the
+// node's average to stand for it.
+bool isAverage(RowLine line, RowWalk walk, int level, int next, float end, vec4 split) {
+  bool inside = min(walk.depth, end) > split.y && max(walk.depth, end) <= split.z;
+  return inside && level <= line.evenLevel && walk.index >= line.firstWhole && next <= line.last + 1;
 }
 
 // Down the tree while a node is mixed, along the row and up again while nodes keep `current`: stackless, one step an
-// iteration. Returns the visibility of the node that ended the walk: kMixed before texels to be looked at one by one.
-float walkNodes(RowLine line, inout RowWalk walk, int slice, float current) {
+// iteration. Returns the visibility of the node that ended the walk: kMixed before texels to be looked at one by one,
+// kAverage before a node, up to `nodeEnd`, whose average (in rowAverages at `average`) stands for it.
+float walkNodes(RowLine line, inout RowWalk walk, int slice, float current, out int nodeEnd, out int average) {
   float found = kMixed;
   int level = 2, base = 0; // base: where the level begins
   bool walking = grid.w > 0 && (walk.index & 15) == 0 && walk.index <= line.last;
   while (walking) {
     VISIT
     int node = walk.index >> (2 * level), next = (node + 1) << (2 * level);
-    float u = rowEnd(line, walk, next);
-    found = boundsVisibility(line, walk, u, texelFetch(rowTree, ivec2(base + node, slice), 0).rg);
+    float u = rowEnd(line, walk, next), end = rowDepth(line, u);
+    vec4 split = texelFetch(rowTree, ivec2(base + node, slice), 0);
+    found = boundsVisibility(walk.depth, end, split.xw);
+    nodeEnd = next;
+    average = base + node;
     if (found == current) {
-      advanceRow(line, walk, next, u);
+      walk = RowWalk(next, u, end);
       bool up = level < grid.w && (next & ((4 << (2 * level)) - 1)) == 0;
       base += up ? grid.z >> (2 * level) : 0;
       level += up ? 1 : 0;
       walking = walk.index <= line.last;
     } else {
+      if (found == kMixed && isAverage(line, walk, level, next, end, split)) found = kAverage;
       walking = found == kMixed && level > 2;
       --level;
       base -= walking ? grid.z >> (2 * level) : 0;

@@ -19,7 +19,7 @@ void skipNodes(Line line, Visibility current, inout Walk walk) {
   while (walking) {
     int node = at.index >> (2 * level), next = (node + 1) << (2 * level);
     float u = rowEnd(trueRow, at, next);
-    float found = boundsVisibility(trueRow, at, u, texelFetch(rowTree, ivec2(base + node, trueSlice), 0).rg);
+    float found = boundsVisibility(at.depth, rowDepth(trueRow, u), texelFetch(rowTree, ivec2(base + node, trueSlice), 0).rg);
     if (found == state) {
       advanceRow(trueRow, at, next, u);
       bool up = level < grid.w && (next & ((4 << (2 * level)) - 1)) == 0;
@@ -42,7 +42,7 @@ void skipNodes(Line line, Visibility current, inout Walk walk) {
 Light ownedLight(Airlight light, ViewSegment segment, int slice) {
   RowWalk unused;
   trueSlice = slice;
-  startRow(segment, slice, trueRow, unused);
+  startRow(light, segment, slice, trueRow, unused);
   return segmentLight(light, segment);
 }
 

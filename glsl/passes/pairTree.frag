@@ -10,7 +10,7 @@ layout(location = 0) out vec4 outBounds;
 
 // A node of a level that begins at `base` in rowTree.
 vec2 nodeOf(int slice, int level, int base, int node) {
-  if (level > 1) return texelFetch(rowTree, ivec2(base + node, slice), 0).rg;
+  if (level > 1) return texelFetch(rowTree, ivec2(base + node, slice), 0).xw;
   vec4 a = texelFetch(rowDepths, ivec2(node, slice), 0);
 #if FILTER_BILINEAR || GLASS
   return a.xy;

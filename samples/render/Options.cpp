@@ -41,7 +41,7 @@ Exit status
 /// The options as typed.
 struct Typed {
   std::string scene, camera, eye, target, fov, sun, size, supersample, profile, technique, view, slices, samples,
-      rowStep, tree, breakThreshold, bendThreshold, leastWeight, spreadThreshold, filter, medium, shadowSize, cascades,
+      rowStep, tree, breakThreshold, bendThreshold, leastWeight, averageThreshold, spreadThreshold, filter, medium, shadowSize, cascades,
       frames, repeat, context, stats, exposure;
   std::vector<std::string> out;
   bool reversedDepth = false;
@@ -147,6 +147,7 @@ void readQuality(const Typed& typed, Options& options) {
   options.breakThreshold = parseThreshold("--break-threshold", typed.breakThreshold, false, 1e6);
   options.bendThreshold = parseThreshold("--bend-threshold", typed.bendThreshold, false, 1e6);
   options.leastWeight = parseThreshold("--least-weight", typed.leastWeight, true, 1);
+  options.averageThreshold = parseThreshold("--average-threshold", typed.averageThreshold, true, 1);
   options.spreadThreshold = parseThreshold("--spread-threshold", typed.spreadThreshold, false, 1e6);
   if (!typed.tree.empty() && typed.tree != "on" && typed.tree != "off")
     failUsage("--tree", typed.tree, "must be on or off");
@@ -213,6 +214,8 @@ void addOptions(CLI::App& app, Typed& typed) {
   app.add_option("--bend-threshold", typed.bendThreshold, "bend of the inscatter that is marched more finely")
       ->type_name("X");
   app.add_option("--least-weight", typed.leastWeight, "bilateral weight under which a pixel is marched by itself");
+  app.add_option("--average-threshold", typed.averageThreshold,
+                 "optical depth of a stretch of a row that is taken by its average (default 0.1)");
   app.add_option("--spread-threshold", typed.spreadThreshold,
                  "spread of the samples around a pixel over which it is marched by itself")
       ->type_name("X");

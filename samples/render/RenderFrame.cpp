@@ -49,6 +49,7 @@ tyndall::Settings settingsOf(const Options& options) {
   settings.breakThreshold = options.breakThreshold.value_or(settings.breakThreshold);
   settings.bendThreshold = options.bendThreshold.value_or(settings.bendThreshold);
   settings.leastWeight = options.leastWeight.value_or(settings.leastWeight);
+  settings.averageThreshold = options.averageThreshold.value_or(settings.averageThreshold);
   settings.spreadThreshold = options.spreadThreshold.value_or(settings.spreadThreshold);
   return settings;
 }

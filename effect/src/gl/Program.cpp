@@ -32,6 +32,8 @@ constexpr Sampler kSamplers[] = {
     {"rowDepths", Unit::RowDepths},
     {"rowNodes", Unit::RowNodes},
     {"rowTree", Unit::RowTree},
+    {"rowAverages", Unit::RowAverages},
+    {"rowNodeAverages", Unit::RowNodeAverages},
     {"extraOffsets", Unit::ExtraOffsets},
     {"sliceSums", Unit::SliceSums},
     {"meanLight", Unit::MeanLight},

@@ -30,15 +30,17 @@ enum class Unit : Uint {
   RowDepths,
   RowNodes,
   RowTree,
+  RowAverages,
   ExtraGreen = Inscatter, ///< no pass reads both
   ExtraBlue = Transmittance,
   ExtraOffsets = RowNodes,
   SliceSums = RowNodes,
+  RowNodeAverages = RowTree,
   MeanLight = Marched,
   ViewImage = Marched, ///< debug views run after the passes that read these, or read neither
   ViewExact = Extra,
   ViewMean = EpipolarInscatter,
-  Upload = RowTree + 1, ///< where textures are made and filled, so that no other unit's texture is disturbed
+  Upload = RowAverages + 1, ///< where textures are made and filled, so that no other unit's texture is disturbed
 };
 
 inline constexpr const char* kFullScreen = "passes/fullscreen.vert";

@@ -27,8 +27,7 @@ Status run(SliceContext& context, const In& in, Out& out) {
     return drawStrips(context.pass, "passes/strips.vert", context.slices.count, "passes/marchExtra.frag",
                       context.definitions);
   });
-  for (gl::Enum i = 1; context.isColoured() && i < 3; ++i) // other passes draw into one target of another size
-    context.gl.FramebufferTexture2D(gl::DRAW_FRAMEBUFFER, gl::COLOR_ATTACHMENT0 + i, gl::TEXTURE_2D, 0, 0);
+  context.detachMore(1);
   return ok ? Status{} : context.shaderError();
 }
 

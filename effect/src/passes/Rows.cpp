@@ -18,6 +18,13 @@ Status target(SliceContext& context, Target which, int width, int drawn, gl::Uin
   return {};
 }
 
+// The same for two targets.
+Status targets(SliceContext& context, Target first, Target second, int width, int drawn, gl::Uint& firstTexture,
+               gl::Uint& secondTexture) {
+  if (Status s = target(context, first, width, drawn, firstTexture); !s) return s;
+  return context.attachMore(1, second, width, context.slices.count, secondTexture);
+}
+
 // Draws what has one fragment for four texels of a row, where rows are.
 gl::Variant inStrips(const char* fragment, const exact::Variant& variant) {
   gl::Definitions definitions = exact::definitionsOf(variant);
@@ -47,16 +54,24 @@ Status run(SliceContext& context, const In& in, Out& out) {
   if (Status s = drawStrips(context, "rows", "passes/rowDepths.frag"); !s) return s;
   if (levels == 0) {
     context.recorder.skip(context.inputs.name + " tree", "settings.minMaxTree is false");
-    out.tree = out.depths; // bound, never read
+    out.tree = out.averages = out.depths; // bound, never read
     return {};
   }
+  gl::Uint nodeAverages = 0;
   context.bind(gl::Unit::RowDepths, out.depths);
-  if (Status s = target(context, Target::RowNodes, room / 16, drawn / 16, nodes); !s) return s;
+  if (Status s = targets(context, Target::RowNodes, Target::RowNodeAverages, room / 16, drawn / 16, nodes, nodeAverages);
+      !s)
+    return s;
   if (Status s = context.draw("nodes", "passes/rowNodes.frag", context.definitions); !s) return s;
   context.bind(gl::Unit::RowNodes, nodes);
+  context.bind(gl::Unit::RowNodeAverages, nodeAverages);
   const int roomNodes = treeNodes(room, 2, levels), drawnNodes = treeNodes(drawn, 2, levels);
-  if (Status s = target(context, Target::RowTree, roomNodes, drawnNodes, out.tree); !s) return s;
-  return context.draw("tree", "passes/rowTree.frag", context.definitions);
+  if (Status s = targets(context, Target::RowTree, Target::RowAverages, roomNodes, drawnNodes, out.tree, out.averages);
+      !s)
+    return s;
+  const Status drawnTree = context.draw("tree", "passes/rowTree.frag", context.definitions);
+  context.detachMore(1);
+  return drawnTree;
 }
 
 Status runPairs(SliceContext& context, const In& in, Out& out) {
@@ -91,6 +106,7 @@ void bind(const SliceContext& context, const Out& rows) {
   if (rows.tree == 0) return;
   context.bind(gl::Unit::RowDepths, rows.depths);
   context.bind(gl::Unit::RowTree, rows.tree);
+  context.bind(gl::Unit::RowAverages, rows.averages);
 }
 
 } // namespace tyndall::passes::rows

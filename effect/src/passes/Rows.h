@@ -13,6 +13,7 @@ struct In {
 struct Out {
   gl::Uint depths = 0; ///< 0: the light has no shadow map
   gl::Uint tree = 0;
+  gl::Uint averages = 0;
 };
 
 Status run(SliceContext& context, const In& in, Out& out);

@@ -49,6 +49,11 @@ Status SliceContext::attachMore(gl::Enum index, Target which, int width, int hei
   return {};
 }
 
+void SliceContext::detachMore(gl::Enum kept) const {
+  for (gl::Enum i = kept; i < 3; ++i)
+    gl.FramebufferTexture2D(gl::DRAW_FRAMEBUFFER, gl::COLOR_ATTACHMENT0 + i, gl::TEXTURE_2D, 0, 0);
+}
+
 Status SliceContext::draw(const std::string& name, const std::string& fragment, const gl::Definitions& with) {
   const bool ok = recorder.run(inputs.name + " " + name, [&] { return drawFullScreen(pass, fragment, with); });
   return ok ? Status{} : shaderError();

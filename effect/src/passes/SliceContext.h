@@ -57,6 +57,9 @@ struct SliceContext {
   /// One more colour target of the next draws, of the same size as the first.
   Status attachMore(gl::Enum index, Target which, int width, int height, gl::Uint& texture);
 
+  /// Leaves only the first `kept` targets attached: other passes draw into fewer, of other sizes.
+  void detachMore(gl::Enum kept) const;
+
   /// Draws the full-screen triangle as a pass of the light.
   Status draw(const std::string& name, const std::string& fragment, const gl::Definitions& with);
 

@@ -38,7 +38,7 @@ Status run(const PassContext& context, Targets& targets, const In& in, Out& out)
   out.block = table.block;
   out.block.thresholds = glm::vec4(settings.breakThreshold, settings.leastWeight, settings.bendThreshold,
                                    std::log2(1 + settings.breakThreshold));
-  out.block.spread = glm::vec4(settings.spreadThreshold, 0, 0, 0);
+  out.block.spread = glm::vec4(settings.spreadThreshold, settings.averageThreshold, 0, 0);
   out.rowTexels = chooseRow(in, table.longestRow, out.block);
 
   out.table = targets.get(Target::SliceTable, table.slices, table.rows);
