@@ -67,14 +67,6 @@ Spectrum airlight(Airlight light, float s0, float s1) {
   return light.phase * sum;
 }
 
-// Light of a span where the visibility has a mean and a first moment (from -1 to 1 over the span): over a short one the airlight
-// falls along a line.
-Spectrum weightedLight(Airlight light, float s0, float s1, vec2 weight) {
-  bool attenuated = light.path + 0.5 * (s0 + s1) * light.pathSlope > 0.0;
-  Spectrum fall = SPECTRUM(extinction) * ((attenuated ? 1.0 + light.pathSlope : 1.0) * (s1 - s0));
-  return airlight(light, s0, s1) * (weight.x - 0.5 * weight.y * fall);
-}
-
 #else
 
 struct Airlight {
@@ -265,13 +257,6 @@ Spectrum airlight(Airlight light, float s0, float s1) {
 #else
   return pointPiece(light, s0, s1);
 #endif
-}
-
-Spectrum weightedLight(Airlight light, float s0, float s1, vec2 weight) {
-  Spectrum sum = airlight(light, s0, s1);
-  if (weight.y == 0.0) return weight.x * sum;
-  Spectrum half = airlight(light, s0, 0.5 * (s0 + s1));
-  return weight.x * sum + 2.0 * weight.y * (sum - 2.0 * half);
 }
 
 #endif

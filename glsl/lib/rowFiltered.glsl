@@ -1,5 +1,7 @@
-// The light of a segment along its slice's row where visibility is filtered 2x2 or tinted by glass: what a group's bounds
-// leave open is looked up in the maps, texel by texel.
+// The light of a segment along its slice's row where visibility is filtered 2x2 or tinted by glass: what a group's split
+// leaves open is looked up in the maps, texel by texel.
+
+uniform sampler2D rowShares; // the groups' means
 
 // Visibility of [walk.u, u] in one texel; u is cut where the ray crosses a stored depth.
 Visibility texelVisibility(RowLine line, RowWalk walk, ViewSegment segment, inout float u) {
@@ -16,18 +18,21 @@ Visibility texelVisibility(RowLine line, RowWalk walk, ViewSegment segment, inou
   return pieceVisibility(still, cell, segment.view, walk.u, u);
 }
 
-// The walk's group of four, if `current` holds all through it.
-bool takeGroup(RowLine line, inout RowWalk walk, int slice, float current) {
+// Takes the walk's group of four if `current` holds all through it; else true if its mean stands for it.
+bool takeGroup(RowLine line, inout RowWalk walk, int slice, float current, out bool averaged) {
   VISIT
   int next = ((walk.index >> 2) + 1) << 2;
-  float u = rowEnd(line, walk, next);
-  vec2 bounds = texelFetch(rowDepths, ivec2(walk.index >> 2, slice), 0).xy;
-  if (walk.index > line.last || boundsVisibility(walk.depth, rowDepth(line, u), bounds) != current) return false;
-  advanceRow(line, walk, next, u);
+  float u = rowEnd(line, walk, next), end = rowDepth(line, u);
+  vec4 split = texelFetch(rowDepths, ivec2(walk.index >> 2, slice), 0);
+  float found = boundsVisibility(walk.depth, end, split.xw);
+  averaged = found == kMixed && (walk.index & 3) == 0 && isAverage(line, walk, 1, next, end, split);
+  if (walk.index > line.last || found != current) return false;
+  walk = RowWalk(next, u, end);
   return true;
 }
 
-// The same integral as segmentLight, over the slice's row. The inner loop finds the next stretch of equal visibility.
+// The same integral as segmentLight, over the slice's row. The inner loop finds the next stretch of equal visibility, or
+// one that its average stands for, which ends the stretch before it.
 Light rowLight(Airlight light, ViewSegment segment, int slice) {
   RowLine line;
   RowWalk walk;
@@ -36,28 +41,38 @@ Light rowLight(Airlight light, ViewSegment segment, int slice) {
   Light sum = Light(0.0);
   Visibility current = Visibility(0.0);
   float from = 0.0;
-  int unused, unused2;
   bool done = false;
   while (!done) {
-    Visibility weight = Visibility(0.0);
+    Average weight = Average(Visibility(0.0), Visibility(0.0));
     vec2 span = vec2(0.0);
-    while (!done && weight == Visibility(0.0)) {
+    while (!done && weight.mean == Visibility(0.0)) {
       float state = current == Visibility(1.0) ? 1.0 : current == Visibility(0.0) ? 0.0 : -1.0;
-      float found = walkNodes(line, walk, slice, state, unused, unused2);
-      int nodeEnd = ((walk.index >> 4) + 1) << 4;
-      bool taking = grid.w > 0 && found == kMixed;
-      while (taking) taking = takeGroup(line, walk, slice, state) && walk.index < nodeEnd;
+      int averageEnd = 0, average = 0, nodeEnd;
+      float found = walkNodes(line, walk, slice, state, averageEnd, average);
+      nodeEnd = ((walk.index >> 4) + 1) << 4;
+      bool taking = grid.w > 0 && found == kMixed, groupAveraged = false;
+      while (taking) taking = takeGroup(line, walk, slice, state, groupAveraged) && walk.index < nodeEnd;
       done = walk.index > line.last || guard <= 0;
+      groupAveraged = groupAveraged && !done && walk.index < nodeEnd;
+      bool averaged = !done && (found == kAverage || groupAveraged);
       float uTexel = rowEnd(line, walk, walk.index + 1), u = uTexel;
-      bool look = !done && walk.index < nodeEnd; // else the next node's turn
+      bool look = !done && !averaged && walk.index < nodeEnd; // else the next node's turn
       Visibility visibility = current;
       if (look) visibility = found != kMixed ? Visibility(found) : texelVisibility(line, walk, segment, u);
-      if (done) visibility = Visibility(0.0);
+      if (done || averaged) visibility = Visibility(0.0);
       if (visibility != current) {
-        weight = current;
+        weight.mean = current;
         span = vec2(from, walk.u);
         current = visibility;
         from = walk.u;
+      } else if (averaged) {
+        int next = groupAveraged ? walk.index + 4 : averageEnd;
+        weight.mean = Visibility(texelFetch(rowShares, ivec2(walk.index >> 2, slice), 0).rgb);
+        if (!groupAveraged) weight = averageAt(average, slice);
+        span = vec2(walk.u, rowEnd(line, walk, next));
+        advanceRow(line, walk, next, span.y);
+        from = walk.u;
+        done = walk.index > line.last;
       }
       --guard;
       if (look && found == kMixed) {
@@ -65,7 +80,7 @@ Light rowLight(Airlight light, ViewSegment segment, int slice) {
         else advanceRow(line, walk, walk.index + 1, uTexel);
       }
     }
-    sum += Light(weight) * Light(airlight(light, distanceAt(segment, span.x), distanceAt(segment, span.y)));
+    sum += weightedLight(light, distanceAt(segment, span.x), distanceAt(segment, span.y), weight.mean, weight.moment);
   }
   return sum;
 }

@@ -31,7 +31,8 @@ Light rowLight(Airlight light, ViewSegment segment, int slice) {
   bool lit = false, done = false;
   float from = 0.0;
   while (!done) {
-    vec2 span = vec2(0.0), weight = vec2(1.0, 0.0); // mean of the visibility, and its first moment
+    vec2 span = vec2(0.0);
+    Average weight = Average(1.0, 0.0);
     while (!done && span.y == 0.0) {
       int nodeEnd = 0, average = 0;
       float found = walkNodes(line, walk, slice, lit ? 1.0 : 0.0, nodeEnd, average), at = walk.u;
@@ -40,7 +41,7 @@ Light rowLight(Airlight light, ViewSegment segment, int slice) {
       if (averaged) {
         float u = rowEnd(line, walk, nodeEnd);
         span = vec2(walk.u, u);
-        weight = averageOf(texelFetch(rowAverages, ivec2(average, slice), 0));
+        weight = averageAt(average, slice);
         advanceRow(line, walk, nodeEnd, u);
         done = walk.index > line.last;
       } else if (!done && !changed) {
@@ -52,7 +53,7 @@ Light rowLight(Airlight light, ViewSegment segment, int slice) {
         from = at;
       }
     }
-    sum += weightedLight(light, distanceAt(segment, span.x), distanceAt(segment, span.y), weight);
+    sum += weightedLight(light, distanceAt(segment, span.x), distanceAt(segment, span.y), weight.mean, weight.moment);
   }
   return sum;
 }

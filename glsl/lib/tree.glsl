@@ -2,7 +2,7 @@
 // texels along the slice, one per step; all rays of the slice run along it, each with its own linear depth.
 //
 // rowDepths: texels / 4 x slices, RGBA: four depths, or, where more than the texels themselves decides (2x2 filter, glass),
-// the bounds of the four in x, y. rowTree: nodes x slices, RGBA: splits (lib/split.glsl) of 16 texels (level 2), then of 64, 256, ...
+// the group's split and, in rowShares, its mean. rowTree: nodes x slices, RGBA: splits (lib/split.glsl) of 16 texels (level 2), then of 64, 256, ...
 // (levels 3, 4, ...). Level l of a row of T texels holds T / 4^l nodes, behind those of the levels below. Depths grow away
 // from the light and are coded (rowCode): 16-bit where the light's depth is linear, else float.
 
@@ -20,7 +20,10 @@ int visits = 0;
 
 uniform sampler2D rowDepths;
 uniform sampler2D rowTree;
-uniform sampler2D rowAverages;
+uniform sampler2D rowMeans; // averages, as split.glsl stores them
+#if GLASS
+uniform sampler2D rowMoments;
+#endif
 
 // A ray on its row: u runs from 0 to 1 over the segment, the row index at u is begin + u * extent.
 struct RowLine {
@@ -86,12 +89,40 @@ const float kAverage = 2.0;
 // node's average to stand for it.
 bool isAverage(RowLine line, RowWalk walk, int level, int next, float end, vec4 split) {
   bool inside = min(walk.depth, end) > split.y && max(walk.depth, end) <= split.z;
+#if FILTER_BILINEAR || GLASS
+  if (walk.u > (float(walk.index) - line.begin) * line.inverse + 1e-6 * line.inverse) return false; // within a texel
+#endif
   return inside && level <= line.evenLevel && walk.index >= line.firstWhole && next <= line.last + 1;
+}
+
+#if LIGHT_KIND == 0
+// Light of a span where the visibility has a mean and a first moment (from -1 to 1 over the span): over a short one the airlight
+// falls along a line.
+Light weightedLight(Airlight light, float s0, float s1, Visibility mean, Visibility moment) {
+  bool attenuated = light.path + 0.5 * (s0 + s1) * light.pathSlope > 0.0;
+  Spectrum fall = SPECTRUM(extinction) * ((attenuated ? 1.0 + light.pathSlope : 1.0) * (s1 - s0));
+  return Light(airlight(light, s0, s1)) * (mean - 0.5 * moment * fall);
+}
+#else
+Light weightedLight(Airlight light, float s0, float s1, Visibility mean, Visibility moment) {
+  Light sum = Light(airlight(light, s0, s1));
+  if (moment == Visibility(0.0)) return mean * sum;
+  Light half = Light(airlight(light, s0, 0.5 * (s0 + s1)));
+  return mean * sum + 2.0 * moment * (sum - 2.0 * half);
+}
+#endif
+
+Average averageAt(int node, int slice) {
+#if GLASS
+  return averageOf(texelFetch(rowMeans, ivec2(node, slice), 0), texelFetch(rowMoments, ivec2(node, slice), 0));
+#else
+  return averageOf(texelFetch(rowMeans, ivec2(node, slice), 0));
+#endif
 }
 
 // Down the tree while a node is mixed, along the row and up again while nodes keep `current`: stackless, one step an
 // iteration. Returns the visibility of the node that ended the walk: kMixed before texels to be looked at one by one,
-// kAverage before a node, up to `nodeEnd`, whose average (in rowAverages at `average`) stands for it.
+// kAverage before a node, up to `nodeEnd`, whose average (`average`) stands for it.
 float walkNodes(RowLine line, inout RowWalk walk, int slice, float current, out int nodeEnd, out int average) {
   float found = kMixed;
   int level = 2, base = 0; // base: where the level begins

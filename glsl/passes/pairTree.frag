@@ -13,7 +13,7 @@ vec2 nodeOf(int slice, int level, int base, int node) {
   if (level > 1) return texelFetch(rowTree, ivec2(base + node, slice), 0).xw;
   vec4 a = texelFetch(rowDepths, ivec2(node, slice), 0);
 #if FILTER_BILINEAR || GLASS
-  return a.xy;
+  return a.xw;
 #else
   return vec2(min(min(a.x, a.y), min(a.z, a.w)), max(max(a.x, a.y), max(a.z, a.w)));
 #endif

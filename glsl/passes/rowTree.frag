@@ -1,13 +1,26 @@
 // Row tree: all levels of the tree behind one another, each gathered from the finest (Chen 2011, 3.3; lib/split.glsl).
-// Reads rowNodes and rowNodeAverages: texels / 16 x slices. Writes rowTree, RGBA, and rowAverages, RG: nodes x slices
-// (layout: lib/tree.glsl).
+// Reads what rowNodes.frag wrote. Writes rowTree, RGBA, and averages: nodes x slices (layout: lib/tree.glsl).
 #include "shared.glsl"
 #include "lib/split.glsl"
 uniform sampler2D rowNodes;
-uniform sampler2D rowNodeAverages;
+uniform sampler2D rowNodeMeans;
+#if GLASS
+uniform sampler2D rowNodeMoments;
+#endif
 
 layout(location = 0) out vec4 outSplit;
-layout(location = 1) out vec4 outAverage;
+layout(location = 1) out vec4 outMean;
+#if GLASS
+layout(location = 2) out vec4 outMoment;
+#endif
+
+Average averageAt(ivec2 at) {
+#if GLASS
+  return averageOf(texelFetch(rowNodeMeans, at, 0), texelFetch(rowNodeMoments, at, 0));
+#else
+  return averageOf(texelFetch(rowNodeMeans, at, 0));
+#endif
+}
 
 void main() {
   int slice = int(gl_FragCoord.y), node = int(gl_FragCoord.x), level = 2;
@@ -16,34 +29,25 @@ void main() {
     ++level;
   }
   int count = 1 << (2 * (level - 2)), first = node * count;
-  if (count == 1) {
-    outSplit = texelFetch(rowNodes, ivec2(first, slice), 0);
-    outAverage = texelFetch(rowNodeAverages, ivec2(first, slice), 0);
-    return;
-  }
-  vec2 bounds = vec2(3.4e38, -3.4e38);
-  for (int i = 0; i < count; ++i) {
-    vec2 one = texelFetch(rowNodes, ivec2(first + i, slice), 0).xw;
-    bounds = vec2(min(bounds.x, one.x), max(bounds.y, one.y));
-  }
-  float middle = splitOf(bounds.x, bounds.y), before = bounds.x, behind = bounds.y;
-  vec2 sum = vec2(0.0);
-  for (int i = 0; i < count; ++i) {
-    vec4 split = texelFetch(rowNodes, ivec2(first + i, slice), 0);
-    vec2 average = vec2(0.0);
-    if (split.x > middle) { // all behind
-      behind = min(behind, split.x);
-      average.x = split.x <= split.w ? 1.0 : 0.0;
-    } else if (split.w <= middle) { // all before
-      before = max(before, split.w);
-    } else {
-      before = max(before, split.y);
-      behind = min(behind, split.z);
-      average = averageOf(texelFetch(rowNodeAverages, ivec2(first + i, slice), 0));
+  vec4 split = texelFetch(rowNodes, ivec2(first, slice), 0);
+  Average average = averageAt(ivec2(first, slice));
+  if (count > 1) {
+    vec2 bounds = vec2(3.4e38, -3.4e38);
+    for (int i = 0; i < count; ++i) {
+      vec2 one = texelFetch(rowNodes, ivec2(first + i, slice), 0).xw;
+      bounds = vec2(min(bounds.x, one.x), max(bounds.y, one.y));
     }
-    float place = (2.0 * float(i) + 1.0) / float(count) - 1.0;
-    sum += vec2(average.x, average.x * place + average.y / float(count)) / float(count);
+    float middle = splitOf(bounds.x, bounds.y);
+    split = bounds.xxyy;
+    average = Average(Share(0.0), Share(0.0));
+    for (int i = 0; i < count; ++i) {
+      ivec2 at = ivec2(first + i, slice);
+      addChild(texelFetch(rowNodes, at, 0), averageAt(at), i, count, middle, split, average);
+    }
   }
-  outSplit = vec4(bounds.x, before, behind, bounds.y);
-  outAverage = storedAverage(sum);
+  outSplit = split;
+  outMean = storedMean(average);
+#if GLASS
+  outMoment = storedMoment(average);
+#endif
 }

@@ -30,17 +30,20 @@ enum class Unit : Uint {
   RowDepths,
   RowNodes,
   RowTree,
-  RowAverages,
+  RowShares,
+  RowMeans,
+  RowMoments,
   ExtraGreen = Inscatter, ///< no pass reads both
   ExtraBlue = Transmittance,
   ExtraOffsets = RowNodes,
   SliceSums = RowNodes,
-  RowNodeAverages = RowTree,
+  RowNodeMeans = RowMeans,
+  RowNodeMoments = RowMoments,
   MeanLight = Marched,
   ViewImage = Marched, ///< debug views run after the passes that read these, or read neither
   ViewExact = Extra,
   ViewMean = EpipolarInscatter,
-  Upload = RowAverages + 1, ///< where textures are made and filled, so that no other unit's texture is disturbed
+  Upload = RowMoments + 1, ///< where textures are made and filled, so that no other unit's texture is disturbed
 };
 
 inline constexpr const char* kFullScreen = "passes/fullscreen.vert";

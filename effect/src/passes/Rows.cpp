@@ -18,11 +18,16 @@ Status target(SliceContext& context, Target which, int width, int drawn, gl::Uin
   return {};
 }
 
-// The same for two targets.
-Status targets(SliceContext& context, Target first, Target second, int width, int drawn, gl::Uint& firstTexture,
-               gl::Uint& secondTexture) {
-  if (Status s = target(context, first, width, drawn, firstTexture); !s) return s;
-  return context.attachMore(1, second, width, context.slices.count, secondTexture);
+// Splits, means and, with glass, moments of a level or of all.
+struct TreeTargets {
+  Target splits, means, moments;
+};
+
+Status targets(SliceContext& context, const TreeTargets& which, int width, int drawn, Out& out) {
+  if (Status s = target(context, which.splits, width, drawn, out.tree); !s) return s;
+  if (Status s = context.attachMore(1, which.means, width, context.slices.count, out.means); !s) return s;
+  if (!context.inputs.variant.glass) return {};
+  return context.attachMore(2, which.moments, width, context.slices.count, out.moments);
 }
 
 // Draws what has one fragment for four texels of a row, where rows are.
@@ -45,30 +50,33 @@ Status drawStrips(SliceContext& context, const char* name, const char* fragment)
 Status run(SliceContext& context, const In& in, Out& out) {
   if (context.views() == 0) return {};
   const int room = context.slices.rowTexels, drawn = context.slices.block.grid.z, levels = context.slices.block.grid.w;
-  gl::Uint nodes = 0;
   context.selectView(in.view);
   context.bindSlices();
   context.bindMaps();
   setBlend(context.pass, Blend::Replace);
   if (Status s = target(context, Target::RowDepths, room / 4, drawn / 4, out.depths); !s) return s;
-  if (Status s = drawStrips(context, "rows", "passes/rowDepths.frag"); !s) return s;
+  const bool hasShares = context.inputs.variant.glass || context.inputs.variant.bilinear;
+  if (hasShares)
+    if (Status s = context.attachMore(1, Target::RowShares, room / 4, context.slices.count, out.shares); !s) return s;
+  const Status drawnDepths = drawStrips(context, "rows", "passes/rowDepths.frag");
+  context.detachMore(1);
+  if (!drawnDepths) return drawnDepths;
   if (levels == 0) {
     context.recorder.skip(context.inputs.name + " tree", "settings.minMaxTree is false");
-    out.tree = out.averages = out.depths; // bound, never read
+    out.tree = out.means = out.depths; // bound, never read
     return {};
   }
-  gl::Uint nodeAverages = 0;
+  Out finest;
   context.bind(gl::Unit::RowDepths, out.depths);
-  if (Status s = targets(context, Target::RowNodes, Target::RowNodeAverages, room / 16, drawn / 16, nodes, nodeAverages);
-      !s)
-    return s;
+  if (hasShares) context.bind(gl::Unit::RowShares, out.shares);
+  constexpr TreeTargets kFinest{Target::RowNodes, Target::RowNodeMeans, Target::RowNodeMoments};
+  constexpr TreeTargets kAll{Target::RowTree, Target::RowMeans, Target::RowMoments};
+  if (Status s = targets(context, kFinest, room / 16, drawn / 16, finest); !s) return s;
   if (Status s = context.draw("nodes", "passes/rowNodes.frag", context.definitions); !s) return s;
-  context.bind(gl::Unit::RowNodes, nodes);
-  context.bind(gl::Unit::RowNodeAverages, nodeAverages);
-  const int roomNodes = treeNodes(room, 2, levels), drawnNodes = treeNodes(drawn, 2, levels);
-  if (Status s = targets(context, Target::RowTree, Target::RowAverages, roomNodes, drawnNodes, out.tree, out.averages);
-      !s)
-    return s;
+  context.bind(gl::Unit::RowNodes, finest.tree);
+  context.bind(gl::Unit::RowNodeMeans, finest.means);
+  if (finest.moments) context.bind(gl::Unit::RowNodeMoments, finest.moments);
+  if (Status s = targets(context, kAll, treeNodes(room, 2, levels), treeNodes(drawn, 2, levels), out); !s) return s;
   const Status drawnTree = context.draw("tree", "passes/rowTree.frag", context.definitions);
   context.detachMore(1);
   return drawnTree;
@@ -106,7 +114,9 @@ void bind(const SliceContext& context, const Out& rows) {
   if (rows.tree == 0) return;
   context.bind(gl::Unit::RowDepths, rows.depths);
   context.bind(gl::Unit::RowTree, rows.tree);
-  context.bind(gl::Unit::RowAverages, rows.averages);
+  context.bind(gl::Unit::RowMeans, rows.means);
+  if (rows.shares) context.bind(gl::Unit::RowShares, rows.shares);
+  if (rows.moments) context.bind(gl::Unit::RowMoments, rows.moments);
 }
 
 } // namespace tyndall::passes::rows

@@ -12,8 +12,10 @@ struct In {
 
 struct Out {
   gl::Uint depths = 0; ///< 0: the light has no shadow map
+  gl::Uint shares = 0; ///< of groups of texels; 0 where a texel is either lit or dark
   gl::Uint tree = 0;
-  gl::Uint averages = 0;
+  gl::Uint means = 0;
+  gl::Uint moments = 0; ///< 0 without glass: beside the means
 };
 
 Status run(SliceContext& context, const In& in, Out& out);

@@ -7,9 +7,16 @@ namespace tyndall::passes {
 namespace {
 
 bool isWide(const SliceContext& context, Target which) {
-  const bool depths =
-      which == Target::RowDepths || which == Target::RowNodes || which == Target::RowTree || which == Target::PairTree;
-  return depths ? context.slices.block.rowCode.w == 0 : context.isColoured();
+  switch (which) {
+  case Target::RowDepths:
+  case Target::RowNodes:
+  case Target::RowTree:
+  case Target::PairTree: return context.slices.block.rowCode.w == 0;
+  case Target::RowShares:
+  case Target::RowNodeMeans:
+  case Target::RowMeans: return context.inputs.variant.glass;
+  default: return context.isColoured();
+  }
 }
 
 } // namespace
