@@ -107,8 +107,8 @@ Light weightedLight(Airlight light, float s0, float s1, Visibility mean, Visibil
 Light weightedLight(Airlight light, float s0, float s1, Visibility mean, Visibility moment) {
   Light sum = Light(airlight(light, s0, s1));
   if (moment == Visibility(0.0)) return mean * sum;
-  Light half = Light(airlight(light, s0, 0.5 * (s0 + s1)));
-  return mean * sum + 2.0 * moment * (sum - 2.0 * half);
+  Light front = Light(airlight(light, s0, 0.5 * (s0 + s1)));
+  return mean * sum + 2.0 * moment * (sum - 2.0 * front);
 }
 #endif
 

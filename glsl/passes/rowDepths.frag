@@ -19,10 +19,10 @@ layout(location = 1) out vec4 outShare;
 // glass, tinted behind `pane`.
 struct Point {
   vec4 caster, pane, weights;
-#if GLASS
-  vec3 tints[4];
-#endif
+  ivec4 corners; // low x, low y, high x, high y
 };
+
+ivec2 cornerOf(Point point, int i) { return ivec2(i % 2 == 0 ? point.corners.x : point.corners.z, i < 2 ? point.corners.y : point.corners.w); }
 
 Point pointAt(vec2 p, int view) {
   ivec2 last = viewCounts.zw - 1;
@@ -38,16 +38,13 @@ Point pointAt(vec2 p, int view) {
   point.caster = vec4(casterDepth(low, view));
 #endif
   for (int i = 0; i < 4; ++i) point.caster[i] = coded(point.caster[i]);
+  point.corners = ivec4(low, high);
   point.pane = point.caster;
 #if GLASS
-  ivec2 corners[4] = ivec2[4](low, ivec2(high.x, low.y), ivec2(low.x, high.y), high);
-  for (int i = 0; i < 1 + 3 * FILTER_BILINEAR; ++i) {
-    point.pane[i] = min(point.caster[i], coded(paneDepth(corners[i], view)));
-    point.tints[i] = paneTint(corners[i], view);
-  }
+  for (int i = 0; i < 1 + 3 * FILTER_BILINEAR; ++i)
+    point.pane[i] = min(point.caster[i], coded(paneDepth(cornerOf(point, i), view)));
 #if !FILTER_BILINEAR
   point.pane = point.pane.xxxx;
-  point.tints[1] = point.tints[2] = point.tints[3] = point.tints[0];
 #endif
 #endif
   return point;
@@ -56,20 +53,29 @@ Point pointAt(vec2 p, int view) {
 float lowestOf(vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
 float highestOf(vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
 
-// Adds a point to a group's split and share. Behind `middle` it is lit by some of its texels, and through some panes.
+// Adds a point to a group's split and share. Behind `middle` it is lit by some of its texels; those through panes follow.
 void addPoint(Point point, float middle, inout vec4 split, inout Share share) {
   for (int i = 0; i < 1 + 3 * FILTER_BILINEAR; ++i) {
     float pane = point.pane[i], caster = point.caster[i];
     bool lit = pane > middle, dark = caster <= middle;
     split.y = max(split.y, lit ? split.y : dark ? caster : pane);
     split.z = min(split.z, lit ? pane : dark ? split.z : caster);
-#if GLASS
-    share += 0.25 * point.weights[i] * (lit ? vec3(1.0) : dark ? vec3(0.0) : point.tints[i]);
-#else
-    share += 0.25 * point.weights[i] * (lit ? 1.0 : 0.0);
-#endif
+    share += Share(lit ? 0.25 * point.weights[i] : 0.0);
   }
 }
+
+#if GLASS
+
+bool isTinted(Point point, float middle) {
+  return any(lessThanEqual(point.pane, vec4(middle))) && any(greaterThan(point.caster, vec4(middle)));
+}
+
+void addTints(Point point, float middle, int view, inout Share share) {
+  for (int i = 0; i < 1 + 3 * FILTER_BILINEAR; ++i)
+    if (point.pane[i] <= middle && point.caster[i] > middle) share += 0.25 * point.weights[i] * paneTint(cornerOf(point, i), view);
+}
+
+#endif
 
 // Rounded outward where depths are stored in 16 bits: the texture's own rounding then changes nothing.
 vec4 storedSplit(vec4 split) {
@@ -92,6 +98,16 @@ void main() {
   addPoint(b, middle, split, share);
   addPoint(c, middle, split, share);
   addPoint(d, middle, split, share);
+#if GLASS
+  // A loop, so that where no pane is near little is fetched.
+  int points = isTinted(a, middle) || isTinted(b, middle) || isTinted(c, middle) || isTinted(d, middle) ? 4 : 0;
+  for (int k = 0; k < points; ++k) {
+    if (k == 1) a = b;
+    if (k == 2) a = c;
+    if (k == 3) a = d;
+    addTints(a, middle, view, share);
+  }
+#endif
   outDepths = storedSplit(split);
   outShare = vec4(vec3(share), 0.0);
 }

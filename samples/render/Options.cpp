@@ -41,8 +41,8 @@ Exit status
 /// The options as typed.
 struct Typed {
   std::string scene, camera, eye, target, fov, sun, size, supersample, profile, technique, view, slices, samples,
-      rowStep, tree, breakThreshold, bendThreshold, leastWeight, averageThreshold, spreadThreshold, filter, medium, shadowSize, cascades,
-      frames, repeat, context, stats, exposure;
+      rowStep, tree, breakThreshold, bendThreshold, leastWeight, averageThreshold, spreadThreshold, filter, medium,
+      shadowSize, cascades, frames, repeat, context, stats, exposure;
   std::vector<std::string> out;
   bool reversedDepth = false;
 };

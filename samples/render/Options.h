@@ -42,7 +42,8 @@ struct Options {
   std::optional<int> samples; ///< none: by the profile
   std::optional<int> rowStep; ///< none: by the profile
   bool minMaxTree = true;
-  std::optional<float> breakThreshold, bendThreshold, leastWeight, averageThreshold, spreadThreshold; ///< none: by the profile
+  std::optional<float> breakThreshold, bendThreshold, leastWeight, averageThreshold,
+      spreadThreshold; ///< none: by the profile
   tyndall::View view = tyndall::View::Composite;
   tyndall::ShadowFilter shadowFilter = tyndall::ShadowFilter::Nearest;
   std::optional<std::filesystem::path> medium;

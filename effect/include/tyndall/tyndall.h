@@ -200,9 +200,9 @@ struct Settings {
   float bendThreshold =
       0.02F; ///< Epipolar: relative bend of the inscatter along a slice that is marched more finely, > 0
   float leastWeight = 0.01F; ///< Epipolar: bilateral weight under which a pixel is marched by itself, 0 to 1
-  /// Tree, Epipolar: optical depth (for lamps also length over distance to the lamp) of a stretch that may be taken as a
-  /// whole where a ray passes lit and dark texels between two layers of casters, by the share of lit ones and its first
-  /// moment; 0 to 1. 0: never
+  /// Tree, Epipolar: optical depth (for lamps also length over distance to the lamp) of a stretch that may be taken as
+  /// a whole where a ray passes lit and dark texels between two layers of casters, by the share of lit ones and its
+  /// first moment; 0 to 1. 0: never
   float averageThreshold = 0.1F;
   /// Epipolar: standard deviation of the inscatter of the samples that serve a pixel, as a part of the picture's mean,
   /// over which it is marched along its own line through the shadow map, as exactly as by Technique::Exact; > 0. 0.01

@@ -11,11 +11,14 @@ bool isWide(const SliceContext& context, Target which) {
   case Target::RowDepths:
   case Target::RowNodes:
   case Target::RowTree:
-  case Target::PairTree: return context.slices.block.rowCode.w == 0;
+  case Target::PairTree:
+    return context.slices.block.rowCode.w == 0;
   case Target::RowShares:
   case Target::RowNodeMeans:
-  case Target::RowMeans: return context.inputs.variant.glass;
-  default: return context.isColoured();
+  case Target::RowMeans:
+    return context.inputs.variant.glass;
+  default:
+    return context.isColoured();
   }
 }
 

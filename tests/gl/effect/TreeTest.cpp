@@ -67,6 +67,7 @@ void checkSwitch(const Case& item, ShadowFilter filter, bool glass) {
   rig.addLight(item.light, 64, glass);
   Settings& settings = rig.scene.frame.settings;
   settings.shadowFilter = filter;
+  settings.averageThreshold = 0;
   for (const Technique technique : {Technique::Tree, Technique::Epipolar}) {
     CAPTURE(static_cast<int>(technique));
     settings.minMaxTree = true;
@@ -81,7 +82,60 @@ void checkSwitch(const Case& item, ShadowFilter filter, bool glass) {
   }
 }
 
+// Nodes taken by their average, and all of them opened.
+bool checkAverages(const Case& item, ShadowFilter filter, bool glass) {
+  CAPTURE(item.name, static_cast<int>(filter), glass);
+  tests::ShaftRig rig(72, 48);
+  rig.addLight(item.light, 512, glass);
+  Settings& settings = rig.scene.frame.settings;
+  settings.technique = Technique::Tree;
+  settings.shadowFilter = filter;
+  settings.averageThreshold = 0;
+  const reference::Image opened = rig.picture(Technique::Tree);
+  const tests::ShaftError floor = rig.error(opened);
+  settings.averageThreshold = 0.1F;
+  const reference::Image averaged = rig.picture(Technique::Tree);
+  CHECK(tests::errorWhere(averaged, opened, [](int, int) { return true; }) <= 5e-4);
+  CHECK(rig.error(averaged).rRmse <= 1.01 * floor.rRmse + 1e-5);
+  return tests::difference(opened, averaged) > 0; // or no node was averaged
+}
+
+// Visits of a ray through slats near the light.
+double visitsThroughSlats(float averageThreshold) {
+  tests::ShaftRig rig(48, 32);
+  rig.addLight(tests::shaftLight(LightKind::Directional), 512);
+  reference::ShadowImage slats = rig.scene.shadow(0);
+  for (std::size_t i = 0; i < slats.depth.size(); ++i)
+    slats.depth[i] = i / 512 / 3 % 2 == i % 512 / 5 % 2 ? 0.05F : 0.999F;
+  rig.scene.setShadow(0, slats);
+  rig.scene.frame.settings.averageThreshold = averageThreshold;
+  rig.scene.frame.settings.view = View::NodeVisits;
+  const host::GlTexture colour = host::makeTexture2D(GL_RGBA16F, 48, 32);
+  rig.scene.frame.colour = colour.name();
+  rig.picture(Technique::Tree);
+  return tests::testEffect().statistics().visitsPerRay;
+}
+
 } // namespace
+
+TEST_CASE("nodes between two layers of casters are taken by their average") {
+  bool averagedLamp = false;
+  for (const bool glass : {false, true})
+    for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear}) {
+      CHECK(checkAverages(suns().front(), filter, glass));
+      checkAverages(suns().back(), filter, glass); // at the seams of coarse cascades
+      averagedLamp = checkAverages(lamps().front(), filter, glass) || averagedLamp;
+      averagedLamp = checkAverages(lamps().back(), filter, glass) || averagedLamp;
+    }
+  CHECK(averagedLamp);
+}
+
+TEST_CASE("averages spare most visits behind slats") {
+  const double opened = visitsThroughSlats(0), averaged = visitsThroughSlats(1);
+  CAPTURE(opened, averaged);
+  CHECK(opened > 20);
+  CHECK(averaged <= 0.4 * opened);
+}
 
 TEST_CASE("the tree of a row only saves time: the picture is the same without it") {
   checkSwitch(suns().front(), ShadowFilter::Nearest, false);
