@@ -31,6 +31,7 @@ UNIFORM_BLOCK(LightBlock) {
                                       // w: panels (in x of airlight.glsl) up to which two nodes resolve the falloff
   vec4 coneSinSquared;                // sin^2(outer), sin^2(inner)
   vec4 boundary;                      // the light's path in the medium at x is max(0, dot(xyz, x) + w); all 0 if none
+  vec4 fade;                          // x: share of a view's width over which it fades into the next
   ivec4 viewCounts;                   // shadow views, 1 if lit outside of them, shadow map width, height
   mat4 texelFromCamera[MAX_SHADOW_VIEWS]; // (x, y, z, 1) to (texel x, texel y, depth, 1) w; depth grows away from the light
   vec4 viewDepth[MAX_SHADOW_VIEWS];   // depth of near and far plane, sign of stored depth, 1 if open beyond the far plane

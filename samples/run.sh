@@ -31,4 +31,6 @@ picture forest
 picture terrain
 picture cage --shadow-size 2048
 picture stage
+picture concert --shadow-size 2048
+picture projector
 say "Done: look at out/gallery/"

@@ -114,6 +114,14 @@ Status checkBoundary(const std::string& field, const Light& light) {
   return {};
 }
 
+Status checkFade(const std::string& field, const Light& light) {
+  if (!(light.cascadeFade >= 0 && light.cascadeFade <= 0.5))
+    return invalid(field + "cascadeFade", text(light.cascadeFade), "must be 0 to 0.5");
+  if (light.cascadeFade > 0 && light.kind != LightKind::Directional)
+    return invalid(field + "cascadeFade", text(light.cascadeFade), "only a directional light has cascades");
+  return {};
+}
+
 Status checkSpot(const std::string& field, const Light& light) {
   if (!(light.outerConeAngle > 0 && light.outerConeAngle <= 1.5707963267948968))
     return invalid(field + "outerConeAngle", text(light.outerConeAngle), "must be > 0 and <= pi/2");
@@ -135,6 +143,7 @@ Status checkLight(const std::string& field, const Light& light) {
   if (light.kind == LightKind::Spot)
     if (Status s = checkSpot(field, light); !s) return s;
   if (Status s = checkBoundary(field, light); !s) return s;
+  if (Status s = checkFade(field, light); !s) return s;
   if (light.shadow.texture != 0)
     if (Status s = checkViews(field, light.kind, light.shadow); !s) return s;
   if ((light.glass.colour != 0) != (light.glass.depth != 0))

@@ -329,6 +329,39 @@ Light segmentLight(Airlight light, ViewSegment segment) {
 Light ownedLight(Airlight light, ViewSegment segment, int slice);
 #endif
 
+#ifndef FADE_STEPS
+#define FADE_STEPS 8
+#endif
+const int kFadeSteps = SHADOW_VIEWS == 2 ? FADE_STEPS : 1; // pieces of a fade, each with one weight
+const int kMostPieces = 4 * kFadeSteps * MAX_SHADOW_VIEWS;
+
+#if SHADOW_VIEWS == 2
+
+// The part of [s0, s1] where a view has all the weight, away from its sides by its fade and, unless it is open there, from
+// its far plane. Empty if y <= x.
+vec2 wholeInterval(int view, Ray ray, float s0, float s1) {
+  vec4 a = texelFromCamera[view] * vec4(ray.origin, 1.0), b = texelFromCamera[view] * vec4(ray.direction, 0.0);
+  vec2 inset = fade.x * vec2(viewCounts.zw), end = vec2(viewCounts.zw) - inset;
+  clipInterval(a.x - inset.x * a.w, b.x - inset.x * b.w, s0, s1);
+  clipInterval(a.y - inset.y * a.w, b.y - inset.y * b.w, s0, s1);
+  clipInterval(end.x * a.w - a.x, end.x * b.w - b.x, s0, s1);
+  clipInterval(end.y * a.w - a.y, end.y * b.w - b.y, s0, s1);
+  float far = mix(viewDepth[view].y, viewDepth[view].x, fade.x);
+  if (viewDepth[view].w == 0.0) clipInterval(far * a.w - a.z, far * b.w - b.z, s0, s1);
+  return vec2(s0, s1);
+}
+
+// A view's weight at s: its distance to its nearest side, or to its far plane, over its fade.
+float viewWeight(int view, Ray ray, float s) {
+  vec4 q = texelFromCamera[view] * vec4(ray.origin + s * ray.direction, 1.0);
+  vec2 place = q.xy / (q.w * vec2(viewCounts.zw)), side = min(place, 1.0 - place);
+  float least = min(side.x, side.y), far = viewDepth[view].y;
+  if (viewDepth[view].w == 0.0) least = min(least, (far - q.z / q.w) / (far - viewDepth[view].x));
+  return clamp(least / fade.x, 0.0, 1.0);
+}
+
+#endif
+
 // In-scattered light of [s0, s1] of the ray, shadowed: each view's own part walked, the rest lit or dark. only >= 0: just
 // that view's part; outside: what is in no view, too. The slice is for ownedLight.
 Light shadowedLight(Airlight light, Ray ray, float s0, float s1, int only, bool outside, int slice) {
@@ -349,7 +382,7 @@ Light shadowedLight(Airlight light, Ray ray, float s0, float s1, int only, bool 
     owned[i] = viewInterval(i < kViews ? i : i - kViews, ray, s0, s1, i >= kViews);
   Light sum = Light(0.0);
   float s = s0;
-  for (int guard = 0; guard < 4 * MAX_SHADOW_VIEWS + 1 && s < s1; ++guard) {
+  for (int guard = 0; guard < kMostPieces && s < s1; ++guard) {
     int owner = -1;
     float end = s1;
     for (int i = 0; i < count && owner < 0; ++i) {
@@ -362,7 +395,41 @@ Light shadowedLight(Airlight light, Ray ray, float s0, float s1, int only, bool 
       }
     }
     bool inView = owner >= 0 && owner < kViews;
+#if SHADOW_VIEWS == 2
+    // Where the owner fades, the next view that reaches there has the rest of the weight.
+    int next = -1;
+    float weight = 1.0;
+    if (inView && fade.x > 0.0) {
+      for (int i = 0; i < kViews; ++i) {
+        if (i <= owner || next >= 0 || owned[i].y <= s || owned[i].y <= owned[i].x) continue;
+        if (owned[i].x <= s) {
+          next = i;
+          end = min(end, owned[i].y);
+        } else {
+          end = min(end, owned[i].x);
+        }
+      }
+      vec2 whole = wholeInterval(owner, ray, s0, s1);
+      bool hasWhole = whole.y > whole.x, fading = !hasWhole || s < whole.x || s >= whole.y;
+      if (next >= 0 && fading) {
+        float first = hasWhole && s >= whole.y ? whole.y : owned[owner].x, last = hasWhole && s < whole.x ? whole.x : owned[owner].y;
+        end = min(end, hasWhole && s < whole.x ? whole.x : end);
+        end = min(end, s + max((last - first) / float(kFadeSteps), 1e-6 * abs(s)));
+        weight = viewWeight(owner, ray, 0.5 * (s + end));
+      } else {
+        if (hasWhole && !fading) end = min(end, whole.y);
+        next = -1;
+      }
+    }
+    int shares = inView ? next >= 0 ? 2 : 1 : 0; // a count that no compiler unrolls
+    for (int k = 0; k < shares; ++k) {
+      int view = k == 0 ? owner : next;
+      float share = k == 0 ? weight : 1.0 - weight;
+      if (view >= 0 && share > 0.0 && (only < 0 || view == only)) sum += share * ownedLight(light, viewSegment(view, ray, s, end), slice);
+    }
+#else
     if (inView && (only < 0 || owner == only)) sum += ownedLight(light, viewSegment(owner, ray, s, end), slice);
+#endif
     if (outside && !inView && (owner >= 0 || litOutside)) sum += Light(airlight(light, s, end));
     s = end;
   }

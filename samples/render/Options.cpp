@@ -41,8 +41,8 @@ Exit status
 /// The options as typed.
 struct Typed {
   std::string scene, camera, eye, target, fov, sun, size, supersample, profile, technique, view, slices, samples,
-      rowStep, tree, breakThreshold, bendThreshold, leastWeight, averageThreshold, spreadThreshold, filter, medium,
-      shadowSize, cascades, frames, repeat, context, stats, exposure;
+      rowStep, tree, breakThreshold, bendThreshold, leastWeight, averageThreshold, spreadThreshold, cascadeFade, filter,
+      medium, shadowSize, cascades, frames, repeat, context, stats, exposure;
   std::vector<std::string> out;
   bool reversedDepth = false;
 };
@@ -162,6 +162,7 @@ void readQuality(const Typed& typed, Options& options) {
     failUsage("--filter", typed.filter, "must be nearest or bilinear");
   options.shadowSize = parseInt("--shadow-size", typed.shadowSize, 1, tyndall::kMaxImageSize);
   options.cascades = parseInt("--cascades", typed.cascades, 1, 4);
+  if (const auto fade = parseThreshold("--cascade-fade", typed.cascadeFade, true, 0.5)) options.cascadeFade = *fade;
   options.reversedDepth = typed.reversedDepth;
   if (!typed.repeat.empty()) options.repeat = parseInt("--repeat", typed.repeat, 1, kMaxRepeat);
 }
@@ -222,6 +223,8 @@ void addOptions(CLI::App& app, Typed& typed) {
   app.add_option("--filter", typed.filter, "of the shadow map: nearest (default) or bilinear")->type_name("NAME");
   app.add_option("--medium", typed.medium, "the medium, instead of the scene's")->type_name("M.json");
   app.add_option("--shadow-size", typed.shadowSize, "texels per side of a shadow map (default 4096)")->type_name("N");
+  app.add_option("--cascade-fade", typed.cascadeFade,
+                 "share of a cascade's width over which it fades into the next, up to 0.5 (default 0.1)");
   app.add_option("--cascades", typed.cascades, "shadow maps of a directional light, 1 to 4 (default 1)")
       ->type_name("N");
   app.add_flag("--reversed-depth", typed.reversedDepth, "camera and shadow depth fall from 1 to 0");

@@ -49,6 +49,7 @@ struct Options {
   std::optional<std::filesystem::path> medium;
   int shadowSize = 4096;
   int cascades = 1;
+  double cascadeFade = 0.1;
   bool reversedDepth = false;       ///< of camera and shadow maps, with clip depth from 0 to 1
   std::optional<FrameRange> frames; ///< none: frame 0, and one object in the statistics instead of a list
   std::optional<int> repeat;        ///< none: render once, without a warm-up

@@ -132,6 +132,8 @@ void FrameRenderer::renderShadowMaps(const std::vector<glm::dmat4>& worldFromNod
   for (tyndall::Light& light : frame_.lights) {
     addOnce(notes, host::fitShadowViews(light, scene_, worldFromNode, frame_.camera, shadowOptions));
     if (light.shadow.views.empty()) continue;
+    if (light.shadow.views.size() > 1 && light.kind == tyndall::LightKind::Directional)
+      light.cascadeFade = options_.cascadeFade;
     shadowMaps_.push_back(sceneRenderer_->renderShadowMap(worldFromNode, light, options_.shadowSize));
     shadowMaps_.back().attachTo(light);
   }

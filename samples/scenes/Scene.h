@@ -74,6 +74,8 @@ Scene makeNave(bool glazed);
 Scene makeForest();
 Scene makeTerrain();
 Scene makeCage();
-Scene makeStage();
+/// Four spot lights, or the twelve of a concert.
+Scene makeStage(bool concert);
+Scene makeProjector();
 
 } // namespace scenes

@@ -24,12 +24,30 @@ struct Lamp {
   bool hasWheel;
 };
 
-const Lamp kLamps[] = {
+const std::vector<Lamp> kLamps = {
     {"blue spot", {-4.6, 6.15, -5.6}, {1.6, 1.0, -1.9}, {0.18, 0.42, 1.0}, 1400, false},
     {"magenta spot", {4.6, 6.15, -5.6}, {-1.7, 1.0, -1.9}, {1.0, 0.22, 0.55}, 1500, false},
     {"amber spot", {-1.7, 6.15, -5.6}, {-2.9, 1.0, -2.6}, {1.0, 0.62, 0.22}, 1000, false},
     {"white spot", {1.5, 6.3, -1.3}, {0.3, 2.4, -4.6}, {0.85, 1.0, 0.95}, 900, true},
 };
+
+/// What a concert adds: six beams from behind, two from the front.
+const std::vector<Lamp> kConcertLamps = {
+    {"violet spot", {-5.7, 6.15, -5.6}, {-4.4, 1.0, -2.4}, {0.45, 0.16, 1.0}, 900, false},
+    {"cyan spot", {-3.1, 6.15, -5.6}, {-0.4, 1.0, -2.2}, {0.10, 0.85, 1.0}, 900, true},
+    {"green spot", {-0.4, 6.15, -5.6}, {2.6, 1.0, -2.4}, {0.20, 1.0, 0.35}, 800, false},
+    {"red spot", {0.9, 6.15, -5.6}, {-1.0, 1.0, -3.0}, {1.0, 0.12, 0.08}, 1000, true},
+    {"gold spot", {2.7, 6.15, -5.6}, {4.0, 1.0, -2.2}, {1.0, 0.75, 0.20}, 900, false},
+    {"rose spot", {5.8, 6.15, -5.6}, {3.0, 1.0, -2.0}, {1.0, 0.35, 0.65}, 900, true},
+    {"left front spot", {-4.2, 6.3, -1.3}, {-2.0, 1.6, -5.0}, {0.40, 0.60, 1.0}, 700, false},
+    {"right front spot", {4.4, 6.3, -1.3}, {2.2, 1.6, -5.0}, {1.0, 0.55, 0.30}, 700, false},
+};
+
+std::vector<Lamp> lampsOf(bool concert) {
+  std::vector<Lamp> lamps = kLamps;
+  if (concert) lamps.insert(lamps.end(), kConcertLamps.begin(), kConcertLamps.end());
+  return lamps;
+}
 
 void house(MeshBuilder& mesh, const Palette& p) {
   mesh.frame(glm::dmat4(1)).material(p.blackWall);
@@ -109,7 +127,7 @@ void drapery(MeshBuilder& mesh, const Palette& p) {
   });
 }
 
-void rig(MeshBuilder& mesh, const Palette& p) {
+void rig(MeshBuilder& mesh, const Palette& p, const std::vector<Lamp>& lamps) {
   mesh.frame(glm::dmat4(1)).material(p.steel);
   truss(mesh, {-7.0, 6.95, -5.75}, {7.0, 6.95, -5.75}, 0.42);
   truss(mesh, {-7.0, 7.05, -1.25}, {7.0, 7.05, -1.25}, 0.36);
@@ -118,7 +136,7 @@ void rig(MeshBuilder& mesh, const Palette& p) {
   for (const double x : {-5.0, 0.0, 5.0})
     for (const double z : {-5.75, -1.25})
       mesh.tube({{x, 7.1, z}, {x, kCeiling, z}}, 0.012, 6);
-  for (const Lamp& lamp : kLamps) {
+  for (const Lamp& lamp : lamps) {
     const glm::dvec3 beam = glm::normalize(lamp.target - lamp.position);
     mesh.material(p.blackSteel).frame(frameAt(lamp.position, beam, {0, 0, 1}));
     lampHousing(mesh);
@@ -154,11 +172,12 @@ Palette paint(Scene& scene) {
 } // namespace
 } // namespace stage
 
-Scene makeStage() {
+Scene makeStage(bool concert) {
   using namespace stage;
+  const std::vector<Lamp> lamps = lampsOf(concert);
   Scene scene;
   scene.camera = {{1.2, 2.5, 7.6}, {-0.1, 3.45, -3.5}, 52, 0.1, 60};
-  for (const Lamp& lamp : kLamps) {
+  for (const Lamp& lamp : lamps) {
     Light spot;
     spot.kind = LightKind::Spot;
     spot.name = lamp.name;
@@ -179,7 +198,7 @@ Scene makeStage() {
   house(mesh, palette);
   proscenium(mesh, palette);
   drapery(mesh, palette);
-  rig(mesh, palette);
+  rig(mesh, palette, lamps);
   props(mesh, palette);
   seats(mesh, palette);
   return scene;

@@ -18,7 +18,9 @@ const std::map<std::string, std::function<scenes::Scene()>>& generators() {
       {"forest", scenes::makeForest},
       {"terrain", scenes::makeTerrain},
       {"cage", scenes::makeCage},
-      {"stage", scenes::makeStage},
+      {"stage", [] { return scenes::makeStage(false); }},
+      {"concert", [] { return scenes::makeStage(true); }},
+      {"projector", scenes::makeProjector},
   };
   return kGenerators;
 }

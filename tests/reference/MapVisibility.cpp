@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 namespace reference {
@@ -53,6 +54,15 @@ struct ViewVolume {
   }
   bool contains(double s) const {
     return insideSides(s) && nearPlane.at(s) >= 0 && !(hasFarPlane && farPlane.at(s) < 0);
+  }
+  /// Of a point inside: its distance to the nearest side, as a share of the view's width, or to the far plane, of its
+  /// depth; over the fade, at most 1.
+  double weight(double s, double fade) const {
+    double least = 1;
+    for (std::size_t i = 1; i < sides.size(); ++i)
+      least = std::min(least, sides[i].at(s) / (2 * sides[0].at(s)));
+    if (hasFarPlane) least = std::min(least, farPlane.at(s) / (nearPlane.at(s) + farPlane.at(s)));
+    return std::clamp(least / fade, 0.0, 1.0);
   }
 };
 
@@ -280,6 +290,22 @@ private:
   Linear u_, v_;
 };
 
+/// Two views' light of [s0, s1], in so many pieces that the weight of the first is even in each.
+Rgb fadedLight(const Airlight& airlight, const ViewWalk& first, const ViewWalk& second, double s0, double s1,
+               const std::function<double(double)>& weightAt) {
+  constexpr int kPieces = 128;
+  Rgb light(0);
+  for (int i = 0; i < kPieces; ++i) {
+    const double a = s0 + (s1 - s0) * i / kPieces, b = s0 + (s1 - s0) * (i + 1) / kPieces;
+    const double weight = weightAt(0.5 * (a + b));
+    LightSum one(airlight), other(airlight);
+    if (weight > 0) first.run(a, b, one);
+    if (weight < 1) second.run(a, b, other);
+    light += weight * one.total() + (1 - weight) * other.total();
+  }
+  return light;
+}
+
 /// Whether depth falls along the light's travel at the centre of the view.
 bool depthFallsWithDistance(const tyndall::Light& light, const glm::dmat4& clipFromWorld) {
   const double middle = ndcFromDepth(light.shadow.clipDepth, 0.5);
@@ -300,6 +326,7 @@ PreparedLight prepareLight(const tyndall::Light& light, const ShadowImage& image
   result.filter = filter;
   result.clipDepth = light.shadow.clipDepth;
   result.litOutsideViews = light.litOutsideViews;
+  result.fade = light.cascadeFade;
   result.hasGlass = !image.glassColour.empty();
   if (image.width == 0) return result;
   const auto texels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
@@ -331,13 +358,22 @@ Rgb shadowedInscatter(const PreparedLight& light, const Airlight& airlight, cons
   }
   std::sort(ends.begin(), ends.end());
   LightSum sum(airlight);
+  Rgb faded(0);
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     const double a = ends[i], b = ends[i + 1], middle = 0.5 * (a + b);
     if (b <= a) continue;
     const auto owner =
         std::find_if(volumes.begin(), volumes.end(), [&](const ViewVolume& v) { return v.contains(middle); });
     if (owner != volumes.end()) {
-      ViewWalk(light, light.views[static_cast<std::size_t>(owner - volumes.begin())], ray).run(a, b, sum);
+      const auto next = std::find_if(owner + 1, volumes.end(), [&](const ViewVolume& v) { return v.contains(middle); });
+      const auto walkOf = [&](const std::vector<ViewVolume>::iterator& volume) {
+        return ViewWalk(light, light.views[static_cast<std::size_t>(volume - volumes.begin())], ray);
+      };
+      if (light.fade > 0 && next != volumes.end())
+        faded += fadedLight(airlight, walkOf(owner), walkOf(next), a, b,
+                            [&](double s) { return owner->weight(s, light.fade); });
+      else
+        walkOf(owner).run(a, b, sum);
       continue;
     }
     const bool lit = light.litOutsideViews || std::any_of(volumes.begin(), volumes.end(), [&](const ViewVolume& v) {
@@ -345,7 +381,7 @@ Rgb shadowedInscatter(const PreparedLight& light, const Airlight& airlight, cons
                      });
     sum.constant(a, b, Rgb(lit ? 1 : 0));
   }
-  return sum.total();
+  return sum.total() + faded;
 }
 
 } // namespace reference

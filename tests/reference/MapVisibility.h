@@ -20,6 +20,7 @@ struct PreparedLight {
   tyndall::ShadowFilter filter = tyndall::ShadowFilter::Nearest;
   tyndall::ClipDepth clipDepth = tyndall::ClipDepth::NegativeOneToOne;
   bool litOutsideViews = true;
+  double fade = 0; ///< share of a view's width over which it fades into the next
   bool hasGlass = false;
   std::vector<PreparedView> views; ///< none: nothing blocks the light
 };

@@ -122,7 +122,10 @@ struct Light {
   double outerConeAngle =
       0.7853981633974483; ///< spot: none beyond this half angle, 0 < outer <= pi/2. glTF's KHR_lights_punctual falloff
   bool litOutsideViews = true; ///< visibility where no shadow view reaches
-  MediumBoundary boundary;     ///< directional
+  /// Directional: share of a cascade's width, at each of its sides and at its far plane, over which it fades into the
+  /// next one that reaches there; 0 to 0.5. 0: a seam
+  double cascadeFade = 0;
+  MediumBoundary boundary; ///< directional
   ShadowMap shadow;
   GlassMap glass;
 };

@@ -149,6 +149,7 @@ blocks::LightBlock lightBlock(const Light& light, const Camera& camera, int shad
   const glm::dvec2 sines(std::sin(light.outerConeAngle), std::sin(light.innerConeAngle));
   block.coneSinSquared = glm::vec4(sines * sines, 0, 0);
   block.boundary = boundaryOf(light.boundary, direction, origin);
+  block.fade = glm::vec4(light.cascadeFade, 0, 0, 0);
   const auto count = static_cast<int>(light.shadow.texture ? light.shadow.views.size() : 0);
   block.viewCounts = glm::ivec4(count, light.litOutsideViews ? 1 : 0, shadowWidth, shadowHeight);
   for (int i = 0; i < count; ++i) {

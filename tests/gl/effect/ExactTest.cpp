@@ -78,6 +78,7 @@ struct Setup {
   bool glass = false;
   bool monochrome = false;
   bool litOutside = true;
+  double fade = 0;
   int size = 64;
 };
 
@@ -118,6 +119,7 @@ Light lightOf(const Setup& setup) {
   light.outerConeAngle = 0.6;
   light.innerConeAngle = 0.4;
   light.litOutsideViews = setup.litOutside;
+  light.cascadeFade = setup.fade;
   light.shadow.clipDepth = setup.clipDepth;
   light.shadow.views = viewsOf(setup, light);
   return light;
@@ -196,6 +198,11 @@ TEST_CASE("exact equals map-exact with cascades, maps of one layer and one texel
   checkAgainstReference(cascades);
   cascades.litOutside = false;
   checkAgainstReference(cascades);
+  for (const double fade : {0.02, 0.2, 0.5}) {
+    CAPTURE(fade);
+    cascades.fade = fade;
+    checkAgainstReference(cascades);
+  }
   Setup flat;
   flat.array = false;
   checkAgainstReference(flat);

@@ -20,6 +20,9 @@ std::vector<Case> suns() {
     light.shadow.views = tests::shadowViews(light, cascades);
     cases.push_back({std::to_string(cascades) + " cascades", light});
   }
+  cases.push_back(cases.back());
+  cases.back().name += " that fade";
+  cases.back().light.cascadeFade = 0.2;
   return cases;
 }
 

@@ -58,6 +58,7 @@ TEST_CASE("tyndall-render refuses wrong usage with exit code 2") {
   checkUsageError({"triangle.gltf", "--break-threshold", "0"}, "--break-threshold 0: must be above 0");
   checkUsageError({"triangle.gltf", "--bend-threshold", "nan"}, "--bend-threshold nan: \"nan\" is not a finite number");
   checkUsageError({"triangle.gltf", "--least-weight", "1.5"}, "--least-weight 1.5: must be at least 0, at most 1");
+  checkUsageError({"triangle.gltf", "--cascade-fade", "0.6"}, "--cascade-fade 0.6: must be at least 0, at most 0.5");
   checkUsageError({"triangle.gltf", "--average-threshold", "2"},
                   "--average-threshold 2: must be at least 0, at most 1");
   checkUsageError({"triangle.gltf", "--spread-threshold", "0"}, "--spread-threshold 0: must be above 0");
