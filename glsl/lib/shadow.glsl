@@ -330,7 +330,7 @@ Light ownedLight(Airlight light, ViewSegment segment, int slice);
 #endif
 
 #ifndef FADE_STEPS
-#define FADE_STEPS 8
+#define FADE_STEPS 4
 #endif
 const int kFadeSteps = SHADOW_VIEWS == 2 ? FADE_STEPS : 1; // pieces of a fade, each with one weight
 const int kMostPieces = 4 * kFadeSteps * MAX_SHADOW_VIEWS;
@@ -360,6 +360,29 @@ float viewWeight(int view, Ray ray, float s) {
   return clamp(least / fade.x, 0.0, 1.0);
 }
 
+// Where a view that owns [s, end] fades, the next view that reaches there has the rest of the weight: returns that one, or
+// -1, and cuts `end` so that one weight stands for the piece.
+int fadeInto(int owner, Ray ray, vec2 owned[2 * MAX_SHADOW_VIEWS], float s0, float s1, float s, inout float end, out float weight) {
+  int next = -1;
+  weight = 1.0;
+  for (int i = owner + 1; i < viewCounts.x && next < 0; ++i) {
+    if (owned[i].y <= s || owned[i].y <= owned[i].x) continue;
+    if (owned[i].x <= s) next = i;
+    end = min(end, owned[i].x <= s ? owned[i].y : owned[i].x);
+  }
+  if (next < 0) return -1;
+  vec2 whole = wholeInterval(owner, ray, s0, s1);
+  bool hasWhole = whole.y > whole.x, before = hasWhole && s < whole.x, behind = hasWhole && s >= whole.y;
+  if (hasWhole && !before && !behind) {
+    end = min(end, whole.y);
+    return -1;
+  }
+  float first = behind ? whole.y : owned[owner].x, last = before ? whole.x : owned[owner].y;
+  end = min(min(end, last), s + max((last - first) / float(kFadeSteps), 1e-6 * abs(s)));
+  weight = viewWeight(owner, ray, 0.5 * (s + end));
+  return next;
+}
+
 #endif
 
 // In-scattered light of [s0, s1] of the ray, shadowed: each view's own part walked, the rest lit or dark. only >= 0: just
@@ -382,56 +405,39 @@ Light shadowedLight(Airlight light, Ray ray, float s0, float s1, int only, bool 
     owned[i] = viewInterval(i < kViews ? i : i - kViews, ray, s0, s1, i >= kViews);
   Light sum = Light(0.0);
   float s = s0;
+  int turn = 0; // of the two views that share a fade
   for (int guard = 0; guard < kMostPieces && s < s1; ++guard) {
-    int owner = -1;
-    float end = s1;
-    for (int i = 0; i < count && owner < 0; ++i) {
-      if (owned[i].y <= s || owned[i].y <= owned[i].x) continue;
-      if (owned[i].x <= s) {
-        owner = i;
-        end = min(end, owned[i].y);
-      } else {
-        end = min(end, owned[i].x);
-      }
-    }
-    bool inView = owner >= 0 && owner < kViews;
-#if SHADOW_VIEWS == 2
-    // Where the owner fades, the next view that reaches there has the rest of the weight.
-    int next = -1;
-    float weight = 1.0;
-    if (inView && fade.x > 0.0) {
-      for (int i = 0; i < kViews; ++i) {
-        if (i <= owner || next >= 0 || owned[i].y <= s || owned[i].y <= owned[i].x) continue;
-        if (owned[i].x <= s) {
-          next = i;
-          end = min(end, owned[i].y);
+    // The next piece that this draw walks; what comes before it is cheap.
+    int view = -1;
+    float share = 0.0, from = s, to = s;
+    for (int i = 0; i < kMostPieces && view < 0 && s < s1; ++i) {
+      int owner = -1;
+      float end = s1;
+      for (int k = 0; k < count && owner < 0; ++k) {
+        if (owned[k].y <= s || owned[k].y <= owned[k].x) continue;
+        if (owned[k].x <= s) {
+          owner = k;
+          end = min(end, owned[k].y);
         } else {
-          end = min(end, owned[i].x);
+          end = min(end, owned[k].x);
         }
       }
-      vec2 whole = wholeInterval(owner, ray, s0, s1);
-      bool hasWhole = whole.y > whole.x, fading = !hasWhole || s < whole.x || s >= whole.y;
-      if (next >= 0 && fading) {
-        float first = hasWhole && s >= whole.y ? whole.y : owned[owner].x, last = hasWhole && s < whole.x ? whole.x : owned[owner].y;
-        end = min(end, hasWhole && s < whole.x ? whole.x : end);
-        end = min(end, s + max((last - first) / float(kFadeSteps), 1e-6 * abs(s)));
-        weight = viewWeight(owner, ray, 0.5 * (s + end));
-      } else {
-        if (hasWhole && !fading) end = min(end, whole.y);
-        next = -1;
-      }
-    }
-    int shares = inView ? next >= 0 ? 2 : 1 : 0; // a count that no compiler unrolls
-    for (int k = 0; k < shares; ++k) {
-      int view = k == 0 ? owner : next;
-      float share = k == 0 ? weight : 1.0 - weight;
-      if (view >= 0 && share > 0.0 && (only < 0 || view == only)) sum += share * ownedLight(light, viewSegment(view, ray, s, end), slice);
-    }
-#else
-    if (inView && (only < 0 || owner == only)) sum += ownedLight(light, viewSegment(owner, ray, s, end), slice);
+      bool inView = owner >= 0 && owner < kViews;
+      int next = -1;
+      float weight = 1.0;
+#if SHADOW_VIEWS == 2
+      if (inView && fade.x > 0.0) next = fadeInto(owner, ray, owned, s0, s1, s, end, weight);
 #endif
-    if (outside && !inView && (owner >= 0 || litOutside)) sum += Light(airlight(light, s, end));
-    s = end;
+      if (outside && !inView && (owner >= 0 || litOutside)) sum += Light(airlight(light, s, end));
+      int candidate = turn == 0 ? owner : next;
+      share = turn == 0 ? weight : 1.0 - weight;
+      if (inView && share > 0.0 && (only < 0 || candidate == only)) view = candidate;
+      from = s;
+      to = end;
+      turn = turn == 0 && next >= 0 ? 1 : 0;
+      s = turn == 1 ? s : end;
+    }
+    if (view >= 0) sum += share * ownedLight(light, viewSegment(view, ray, from, to), slice);
   }
   return sum;
 #endif
