@@ -58,7 +58,7 @@ Status run(SliceContext& context, const In& in, Out& out) {
   const bool hasShares = context.inputs.variant.glass || context.inputs.variant.bilinear;
   if (hasShares)
     if (Status s = context.attachMore(1, Target::RowShares, room / 4, context.slices.count, out.shares); !s) return s;
-  const Status drawnDepths = drawStrips(context, "rows", "passes/rowDepths.frag");
+  Status drawnDepths = drawStrips(context, "rows", "passes/rowDepths.frag");
   context.detachMore(1);
   if (!drawnDepths) return drawnDepths;
   if (levels == 0) {
@@ -77,7 +77,7 @@ Status run(SliceContext& context, const In& in, Out& out) {
   context.bind(gl::Unit::RowNodeMeans, finest.means);
   if (finest.moments) context.bind(gl::Unit::RowNodeMoments, finest.moments);
   if (Status s = targets(context, kAll, treeNodes(room, 2, levels), treeNodes(drawn, 2, levels), out); !s) return s;
-  const Status drawnTree = context.draw("tree", "passes/rowTree.frag", context.definitions);
+  Status drawnTree = context.draw("tree", "passes/rowTree.frag", context.definitions);
   context.detachMore(1);
   return drawnTree;
 }
