@@ -34,7 +34,8 @@ reference::ShadowImage readShadow(const tyndall::Light& light, int size) {
 } // namespace
 
 const std::vector<std::string>& sampleScenes() {
-  static const std::vector<std::string> names = {"nave", "nave-glass", "forest", "terrain", "cage", "stage", "concert", "projector"};
+  static const std::vector<std::string> names = {"nave", "nave-glass", "forest",  "terrain",
+                                                 "cage", "stage",      "concert", "projector"};
   return names;
 }
 
