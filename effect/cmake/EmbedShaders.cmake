@@ -1,5 +1,6 @@
 # Writes OUTPUT, a C++ file that holds every shader of SHADERS (names relative to ROOT) with its #include lines resolved,
-# each file at most once per shader. Run as a script: cmake -DROOT=… -DOUTPUT=… "-DSHADERS=a;b" -P EmbedShaders.cmake
+# each file at most once per shader, and without lines of comments: C++ promises no more than 65,536 characters.
+# Run as a script: cmake -DROOT=… -DOUTPUT=… "-DSHADERS=a;b" -P EmbedShaders.cmake
 cmake_minimum_required(VERSION 3.22)
 
 # Sets RESULT in the caller to the text of FILE with its includes in place; INCLUDED lists the files already in it.
@@ -24,6 +25,7 @@ set(code "// Generated from glsl/ by EmbedShaders.cmake.\n#include \"gl/ShaderSo
 foreach(shader IN LISTS SHADERS)
   set(seen "")
   resolve("${shader}" text seen)
+  string(REGEX REPLACE "\n *//[^\n]*" "" text "${text}")
   string(APPEND code "    {\"${shader}\", R\"glsl(${text})glsl\"},\n")
 endforeach()
 string(APPEND code "};\n} // namespace\n\nconst char* shaderSource(const char* name) {\n  for (const Entry& entry : kEntries)\n    if (std::strcmp(entry.name, name) == 0) return entry.text;\n  return nullptr;\n}\n\n} // namespace tyndall\n")
