@@ -64,8 +64,8 @@ private:
   Read extra(double n) const { return {extraFormat(), shape_.slices, samples_ / 4, n}; }
   Read epipolarInscatter(double n) const { return {inscatterFormat(), shape_.slices, samples_, n}; }
   Read rowDepths(double n) const { return {GL_RGBA16, shape_.rowTexels / 4, shape_.slices, n}; }
-  Read rowNodes(double n) const { return {GL_RG16, shape_.rowTexels / 16, shape_.slices, n}; }
-  Read rowTree(double n) const { return {GL_RG16, treeNodes_, shape_.slices, n}; }
+  Read rowNodes(double n) const { return {GL_RGBA16, shape_.rowTexels / 16, shape_.slices, n}; }
+  Read rowTree(double n) const { return {GL_RGBA16, treeNodes_, shape_.slices, n}; }
 
   GLenum marchedFormat() const { return coloured_ ? GL_RGBA16F : GL_R32F; }
   GLenum extraFormat() const { return coloured_ ? GL_RGBA16F : GL_RGBA32F; }
@@ -91,7 +91,11 @@ private:
     const double texelsOfNode = static_cast<double>(levels_) * (shape_.rowTexels / 16) / treeNodes_;
     Pass rows = over("rows", rowDepths(0), maps);
     rows.height = std::max(1, shape_.drawnTexels / 4);
-    return {rows, over("nodes", rowNodes(0), {rowDepths(4)}), over("tree", rowTree(0), {rowNodes(texelsOfNode)})};
+    Pass nodes = over("nodes", rowNodes(0), {rowDepths(4)});
+    Pass tree = over("tree", rowTree(0), {rowNodes(texelsOfNode)});
+    for (Pass* pass : {&nodes, &tree})
+      pass->targets.push_back(GL_RG16); // the averages
+    return {rows, nodes, tree};
   }
 
   std::vector<Pass> samplePasses() const {

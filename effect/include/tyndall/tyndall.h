@@ -179,7 +179,7 @@ enum class View {
   Breaks,        ///< Epipolar: samples on the near side of a depth break in red, on the far side in blue
   MarchSamples,  ///< Epipolar: march samples in each pixel: blue counts the regular ones, red those that breaks, slice
                  ///< ends and the light's vicinity ask for, green those where the inscatter bends
-  FixupPixels,   ///< Epipolar: pixels that no sample served, red
+  FixupPixels,   ///< Epipolar: pixels that no sample served or, with a spreadThreshold, whose samples differ, red
   NodeVisits,    ///< Tree, Epipolar: nodes and groups of texels that a ray through the pixel's slice looks at, in all
                  ///< views. Black 0 over blue, red, yellow to white 1023, by log2(1 + n); ticks of the bar at each
                  ///< factor of 4. Epipolar marches only some pixels: MarchSamples shows where
@@ -254,7 +254,7 @@ struct Statistics {
   std::vector<PassStatistics> passes;
   std::uint64_t bytes = 0;       ///< GL memory the effect holds in textures and buffers
   int compiledPrograms = 0;      ///< shader variants compiled so far
-  std::uint64_t fixupPixels = 0; ///< pixels that no epipolar sample served
+  std::uint64_t fixupPixels = 0; ///< pixels that were marched by themselves after epipolar sampling
   /// Camera rays integrated, over all lights and shadow views; march samples that are integrated together, up to four
   /// of a slice, count as one. Reading it waits for the GPU.
   std::uint64_t marchedSamples = 0;

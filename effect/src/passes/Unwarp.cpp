@@ -26,22 +26,29 @@ gl::Definitions definitionsOf(const exact::Variant& variant, bool spread) {
   return definitions;
 }
 
-// The pixels that are left: along their slice's row, or, where it is the slices that disagree, along their own line.
-Status fixUp(SliceContext& context, const In& in) {
+// The few pixels that no sample serves: along their slice's row. With several views only the last one's rows are at
+// hand, and to make them all again would take longer than every texel does.
+Status fixUpUnserved(SliceContext& context, const In& in) {
+  rows::bind(context, in.rows);
+  const StencilTest test(context.gl, gl::EQUAL, 0, gl::KEEP);
+  return context.draw("fix-up", context.views() > 1 ? "passes/exact.frag" : "passes/pixelTree.frag",
+                      context.definitions);
+}
+
+// Those pixels and the many between slices that disagree: along their own line.
+Status fixUpBetweenSlices(SliceContext& context, const In& in) {
   rows::Out rows = in.rows;
   for (int view = 0; view < context.draws(); ++view) {
     if (context.views() > 1) // only the last view's rows are at hand
       if (Status s = rows::run(context, {view}, rows); !s) return s;
-    if (in.meanLight)
-      if (Status s = rows::runPairs(context, {view}, rows); !s) return s;
+    if (Status s = rows::runPairs(context, {view}, rows); !s) return s;
     context.selectView(view);
     context.bindSceneDepth();
     rows::bind(context, rows);
     if (Status s = context.inputs.attachDestination(true, view == 0); !s) return s;
     const StencilTest test(context.gl, gl::EQUAL, 0, gl::KEEP);
     setBlend(context.pass, view == 0 ? context.inputs.blend : Blend::Add);
-    const char* shader = in.meanLight ? "passes/fixup.frag" : "passes/pixelTree.frag";
-    if (Status s = context.draw("fix-up", shader, context.definitions); !s) return s;
+    if (Status s = context.draw("fix-up", "passes/fixup.frag", context.definitions); !s) return s;
   }
   return {};
 }
@@ -69,7 +76,7 @@ Status run(SliceContext& context, const In& in) {
   context.recorder.countFixup(pixels - served);
   context.recorder.countMarched(pixels - served);
   if (status && served == pixels) context.recorder.skip(context.inputs.name + " fix-up", "every pixel was served");
-  if (status && served < pixels) status = fixUp(context, in);
+  if (status && served < pixels) status = in.meanLight ? fixUpBetweenSlices(context, in) : fixUpUnserved(context, in);
   return status;
 }
 
