@@ -49,5 +49,5 @@ UNIFORM_BLOCK(EpipolarBlock) {
                       // y: optical depth of a stretch of a row that is taken by its average
   vec4 rowCode;       // coded depth of a row = x depth + y; z: that of a texel without a caster; w: 65535 if it is stored in 16 bit, else 0
   ivec4 grid;         // slices, samples, texels of a row, levels of the tree or 0: none
-  ivec4 march;        // shadow view of a draw, its first table row; z: 1 for the draw that brings what is outside all views
+  ivec4 march;        // shadow views of a draw: the first, how many; z: 1 for the draw that brings what is outside all views; w: of the light
 };

@@ -122,7 +122,9 @@ Status Effect::render(const Frame& frame) {
   FrameTextures textures;
   if (Status s = checkTextures(state.gl, frame, textures); !s) return s;
   state.recorder.beginFrame();
-  return state.renderChecked(frame, textures);
+  Status status = state.renderChecked(frame, textures);
+  state.targets.endFrame();
+  return status;
 }
 
 Statistics Effect::statistics() {

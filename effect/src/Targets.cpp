@@ -2,6 +2,9 @@
 
 #include "gl/Program.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace tyndall {
 
 namespace {
@@ -38,16 +41,16 @@ constexpr Row kRows[] = {
     {"extra green", kRgba16, kRgba16, "slices x samples / 4", "the same in green"},
     {"extra blue", kRgba16, kRgba16, "slices x samples / 4", "the same in blue"},
     {"epipolar inscatter", kRgba16, kRg32, "slices x samples", "inscatter of all samples, with their distance"},
-    {"row depths", kRgba32, kUnorm4, "texels / 4 x slices", "the shadow map along each slice"},
-    {"row shares", kUnorm4, kUnorm2, "texels / 4 x slices",
+    {"row depths", kRgba32, kUnorm4, "texels / 4 x rows", "the shadow map along each slice"},
+    {"row shares", kUnorm4, kUnorm2, "texels / 4 x rows",
      "how much is lit behind a group's split; filtered or glass"},
-    {"row nodes", kRgba32, kUnorm4, "texels / 16 x slices", "the tree's finest level, to gather the others from"},
-    {"row node means", kUnorm4, kUnorm2, "texels / 16 x slices", "the same: averages; with glass, means"},
-    {"row node moments", kUnorm4, kUnorm4, "texels / 16 x slices", "the same with glass: first moments"},
-    {"row tree", kRgba32, kUnorm4, "nodes x slices", "all levels of the tree: where depths split"},
-    {"row means", kUnorm4, kUnorm2, "nodes x slices", "the same: averages; with glass, means"},
-    {"row moments", kUnorm4, kUnorm4, "nodes x slices", "the same with glass: first moments"},
-    {"pair tree", kRg32, kUnorm2, "nodes x slices", "the same over two neighbouring rows, for rays between them"},
+    {"row nodes", kRgba32, kUnorm4, "texels / 16 x rows", "the tree's finest level, to gather the others from"},
+    {"row node means", kUnorm4, kUnorm2, "texels / 16 x rows", "the same: averages; with glass, means"},
+    {"row node moments", kUnorm4, kUnorm4, "texels / 16 x rows", "the same with glass: first moments"},
+    {"row tree", kRgba32, kUnorm4, "nodes x rows", "all levels of the tree: where depths split"},
+    {"row means", kUnorm4, kUnorm2, "nodes x rows", "the same: averages; with glass, means"},
+    {"row moments", kUnorm4, kUnorm4, "nodes x rows", "the same with glass: first moments"},
+    {"pair tree", kRg32, kUnorm2, "nodes x rows", "the same over two neighbouring rows, for rays between them"},
     {"view", kRgba32, kRgba32, "image", "debug views of slices: what is counted or shown, until all lights are done"},
     {"view exact", kRgba32, kRgba32, "image", "debug view of the difference: exact's inscatter"},
     {"view row means", kR32, kR32, "image height x 1", "the same, or visits: mean over each row of pixels"},
@@ -59,17 +62,28 @@ constexpr Row kRows[] = {
 gl::Uint Targets::get(Target target, int width, int height, bool wide) {
   const auto index = static_cast<std::size_t>(target);
   const Format& format = wide ? kRows[index].wide : kRows[index].narrow;
-  Slot& slot = slots_[index];
-  if (slot.texture && slot.width == width && slot.height == height && slot.format == format.internal)
-    return slot.texture.name();
-  slot = Slot{gl::Texture(gl_), width, height, format.bytes, format.internal};
+  for (Slot& slot : slots_[index])
+    if (slot.width == width && slot.height == height && slot.format == format.internal) {
+      slot.used = true;
+      return slot.texture.name();
+    }
+  Slot slot{gl::Texture(gl_), true, width, height, format.bytes, format.internal};
   gl_.ActiveTexture(gl::TEXTURE0 + static_cast<gl::Enum>(gl::Unit::Upload));
   gl_.BindTexture(gl::TEXTURE_2D, slot.texture.name());
   gl_.TexParameteri(gl::TEXTURE_2D, gl::TEXTURE_MAX_LEVEL, 0);
   gl_.TexImage2D(gl::TEXTURE_2D, 0, static_cast<gl::Int>(format.internal), width, height, 0, format.channels, gl::FLOAT,
                  nullptr);
-  if (gl_.GetError() == gl::OUT_OF_MEMORY) slot = Slot{};
-  return slot.texture.name();
+  if (gl_.GetError() == gl::OUT_OF_MEMORY) return 0;
+  slots_[index].push_back(std::move(slot));
+  return slots_[index].back().texture.name();
+}
+
+void Targets::endFrame() {
+  for (std::vector<Slot>& slots : slots_) {
+    slots.erase(std::remove_if(slots.begin(), slots.end(), [](const Slot& slot) { return !slot.used; }), slots.end());
+    for (Slot& slot : slots)
+      slot.used = false;
+  }
 }
 
 gl::Uint Targets::stencil(int width, int height) {
@@ -88,8 +102,9 @@ std::uint64_t Targets::bytes() const {
     return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   };
   std::uint64_t sum = stencil_ ? area(stencilWidth_, stencilHeight_) : 0;
-  for (const Slot& slot : slots_)
-    if (slot.texture) sum += area(slot.width, slot.height) * static_cast<std::uint64_t>(slot.bytesPerTexel);
+  for (const std::vector<Slot>& slots : slots_)
+    for (const Slot& slot : slots)
+      sum += area(slot.width, slot.height) * static_cast<std::uint64_t>(slot.bytesPerTexel);
   return sum;
 }
 

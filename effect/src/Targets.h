@@ -1,11 +1,12 @@
-// The effect's own textures: one table of name, format, size and reason. Allocated when a pass first needs them, again
-// when the size changes.
+// The effect's own textures: one table of name, format, size and reason. Allocated when a pass first needs them; shared by
+// lights that ask for the same size and format, and given up after a frame that did not use them.
 #pragma once
 
 #include "gl/Objects.h"
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace tyndall {
 
@@ -50,19 +51,23 @@ public:
   /// The stencil buffer of the image; 0 if GL is out of memory.
   gl::Uint stencil(int width, int height);
 
+  /// Gives up the textures that were not asked for since the last call.
+  void endFrame();
+
   /// GL memory held, in bytes.
   std::uint64_t bytes() const;
 
 private:
   struct Slot {
     gl::Texture texture;
+    bool used = false; // in this frame
     int width = 0;
     int height = 0;
     int bytesPerTexel = 0;
     gl::Enum format = 0;
   };
   const gl::Functions& gl_;
-  std::array<Slot, static_cast<std::size_t>(Target::Count)> slots_;
+  std::array<std::vector<Slot>, static_cast<std::size_t>(Target::Count)> slots_;
   gl::Renderbuffer stencil_;
   int stencilWidth_ = 0;
   int stencilHeight_ = 0;

@@ -19,11 +19,11 @@ Visibility texelVisibility(RowLine line, RowWalk walk, ViewSegment segment, inou
 }
 
 // Takes the walk's group of four if `current` holds all through it; else true if its mean stands for it.
-bool takeGroup(RowLine line, inout RowWalk walk, int slice, float current, out bool averaged) {
+bool takeGroup(RowLine line, inout RowWalk walk, float current, out bool averaged) {
   VISIT
   int next = ((walk.index >> 2) + 1) << 2;
   float u = rowEnd(line, walk, next), end = rowDepth(line, u);
-  vec4 split = texelFetch(rowDepths, ivec2(walk.index >> 2, slice), 0);
+  vec4 split = texelFetch(rowDepths, ivec2(walk.index >> 2, line.row), 0);
   float found = boundsVisibility(walk.depth, end, split.xw);
   averaged = found == kMixed && (walk.index & 3) == 0 && isAverage(line, walk, 1, next, end, split);
   if (walk.index > line.last || found != current) return false;
@@ -48,10 +48,10 @@ Light rowLight(Airlight light, ViewSegment segment, int slice) {
     while (!done && weight.mean == Visibility(0.0)) {
       float state = current == Visibility(1.0) ? 1.0 : current == Visibility(0.0) ? 0.0 : -1.0;
       int averageEnd = 0, average = 0, nodeEnd;
-      float found = walkNodes(line, walk, slice, state, averageEnd, average);
+      float found = walkNodes(line, walk, state, averageEnd, average);
       nodeEnd = ((walk.index >> 4) + 1) << 4;
       bool taking = grid.w > 0 && found == kMixed, groupAveraged = false;
-      while (taking) taking = takeGroup(line, walk, slice, state, groupAveraged) && walk.index < nodeEnd;
+      while (taking) taking = takeGroup(line, walk, state, groupAveraged) && walk.index < nodeEnd;
       done = walk.index > line.last || guard <= 0;
       groupAveraged = groupAveraged && !done && walk.index < nodeEnd;
       bool averaged = !done && (found == kAverage || groupAveraged);
@@ -67,8 +67,8 @@ Light rowLight(Airlight light, ViewSegment segment, int slice) {
         from = walk.u;
       } else if (averaged) {
         int next = groupAveraged ? walk.index + 4 : averageEnd;
-        weight.mean = Visibility(texelFetch(rowShares, ivec2(walk.index >> 2, slice), 0).rgb);
-        if (!groupAveraged) weight = averageAt(average, slice);
+        weight.mean = Visibility(texelFetch(rowShares, ivec2(walk.index >> 2, line.row), 0).rgb);
+        if (!groupAveraged) weight = averageAt(average, line.row);
         span = vec2(walk.u, rowEnd(line, walk, next));
         advanceRow(line, walk, next, span.y);
         from = walk.u;

@@ -1,9 +1,9 @@
 // The light of a segment along its slice's row, nearest texels: visibility is 0 or 1, and a texel's own depth decides.
 
 // Looks at the walk's texel and those behind it in its group of four for the first change of visibility; `at` is where.
-bool changeInGroup(RowLine line, inout RowWalk walk, int slice, bool lit, inout float at) {
+bool changeInGroup(RowLine line, inout RowWalk walk, bool lit, inout float at) {
   VISIT
-  vec4 depths = texelFetch(rowDepths, ivec2(walk.index >> 2, slice), 0);
+  vec4 depths = texelFetch(rowDepths, ivec2(walk.index >> 2, line.row), 0);
   int first = walk.index & ~3;
   bool changed = false;
   for (int k = 0; k < 4; ++k) {
@@ -35,17 +35,17 @@ Light rowLight(Airlight light, ViewSegment segment, int slice) {
     Average weight = Average(1.0, 0.0);
     while (!done && span.y == 0.0) {
       int nodeEnd = 0, average = 0;
-      float found = walkNodes(line, walk, slice, lit ? 1.0 : 0.0, nodeEnd, average), at = walk.u;
+      float found = walkNodes(line, walk, lit ? 1.0 : 0.0, nodeEnd, average), at = walk.u;
       done = walk.index > line.last;
       bool averaged = !done && !lit && found == kAverage, changed = !done && !averaged && found != kMixed;
       if (averaged) {
         float u = rowEnd(line, walk, nodeEnd);
         span = vec2(walk.u, u);
-        weight = averageAt(average, slice);
+        weight = averageAt(average, line.row);
         advanceRow(line, walk, nodeEnd, u);
         done = walk.index > line.last;
       } else if (!done && !changed) {
-        changed = changeInGroup(line, walk, slice, lit, at);
+        changed = changeInGroup(line, walk, lit, at);
       }
       if (lit && (changed || done)) span = vec2(from, done ? 1.0 : at);
       if (changed) {

@@ -9,9 +9,6 @@ uniform sampler2D sliceTable;
 vec4 sliceEnds(int slice) { return texelFetch(sliceTable, ivec2(slice, 0), 0); }
 int sliceSamples(int slice) { return int(texelFetch(sliceTable, ivec2(slice, 1), 0).w) + 1; }
 
-// Texels of the slice's row in this draw's shadow view, up to the end of its last node of 16.
-int rowTexels(int slice) { return ((max(int(texelFetch(sliceTable, ivec2(slice, march.y + 1), 0).x), 1) - 1) | 15) + 1; }
-
 vec2 samplePosition(vec4 ends, int samples, float index) {
   return mix(ends.xy, ends.zw, index / float(max(samples - 1, 1)));
 }

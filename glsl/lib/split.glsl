@@ -26,8 +26,8 @@ Average averageOf(vec4 stored) { return Average(stored.r, 2.0 * stored.g - 1.0);
 #endif
 
 // Where to split: halfway between the bounds; what holds no caster counts as at the far plane.
-float splitOf(float lowest, float highest) {
-  float far = viewDepth[march.x].y * rowCode.x + rowCode.y;
+float splitOf(int view, float lowest, float highest) {
+  float far = viewDepth[view].y * rowCode.x + rowCode.y;
   return 0.5 * (lowest + min(highest, max(far, lowest)));
 }
 

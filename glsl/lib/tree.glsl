@@ -1,8 +1,8 @@
 // Visibility along a slice's row, with a min/max tree over it (Chen 2011, 3.3; Yusov 2013). The row holds the shadow map's
 // texels along the slice, one per step; all rays of the slice run along it, each with its own linear depth.
 //
-// rowDepths: texels / 4 x slices, RGBA: four depths, or, where more than the texels themselves decides (2x2 filter, glass),
-// the group's split and, in rowShares, its mean. rowTree: nodes x slices, RGBA: splits (lib/split.glsl) of 16 texels (level 2), then of 64, 256, ...
+// rowDepths: texels / 4 x rows (lib/slices.glsl), RGBA: four depths, or, where more than the texels themselves decides (2x2 filter, glass),
+// the group's split and, in rowShares, its mean. rowTree: nodes x rows, RGBA: splits (lib/split.glsl) of 16 texels (level 2), then of 64, 256, ...
 // (levels 3, 4, ...). Level l of a row of T texels holds T / 4^l nodes, behind those of the levels below. Depths grow away
 // from the light and are coded (rowCode): 16-bit where the light's depth is linear, else float.
 
@@ -16,6 +16,7 @@ int visits = 0;
 
 #if SHADOW_VIEWS > 0
 
+#include "lib/rows.glsl"
 #include "lib/split.glsl"
 
 uniform sampler2D rowDepths;
@@ -30,6 +31,7 @@ struct RowLine {
   vec2 origin, step; // of the row, texels
   float begin, inverse; // inverse: 1 / extent, or 0 if the ray does not move along the row
   float depth, slope;   // coded
+  int row;  // where row textures hold it
   int last; // index of the last texel
   int firstWhole; // first texel that the ray crosses whole
   int evenLevel;  // coarsest level at which a line stands for the airlight over a node
@@ -44,10 +46,11 @@ struct RowWalk {
 float rowDepth(RowLine line, float u) { return min(line.depth + line.slope * u, rowCode.z); }
 
 void startRow(Airlight light, ViewSegment segment, int slice, out RowLine line, out RowWalk walk) {
-  vec4 row = texelFetch(sliceTable, ivec2(slice, march.y), 0);
+  vec4 row = rowLine(segment.view, slice);
+  line.row = rowOf(segment.view, slice);
   line.origin = row.xy;
   line.step = row.zw;
-  int highest = max(int(texelFetch(sliceTable, ivec2(slice, march.y + 1), 0).x), 1) - 1;
+  int highest = rowLast(segment.view, slice);
   float scale = 1.0 / dot(row.zw, row.zw);
   line.begin = dot(segment.p0.xy - row.xy, row.zw) * scale;
   float end = dot(segment.p1.xy - row.xy, row.zw) * scale;
@@ -112,18 +115,18 @@ Light weightedLight(Airlight light, float s0, float s1, Visibility mean, Visibil
 }
 #endif
 
-Average averageAt(int node, int slice) {
+Average averageAt(int node, int row) {
 #if GLASS
-  return averageOf(texelFetch(rowMeans, ivec2(node, slice), 0), texelFetch(rowMoments, ivec2(node, slice), 0));
+  return averageOf(texelFetch(rowMeans, ivec2(node, row), 0), texelFetch(rowMoments, ivec2(node, row), 0));
 #else
-  return averageOf(texelFetch(rowMeans, ivec2(node, slice), 0));
+  return averageOf(texelFetch(rowMeans, ivec2(node, row), 0));
 #endif
 }
 
 // Down the tree while a node is mixed, along the row and up again while nodes keep `current`: stackless, one step an
 // iteration. Returns the visibility of the node that ended the walk: kMixed before texels to be looked at one by one,
 // kAverage before a node, up to `nodeEnd`, whose average (`average`) stands for it.
-float walkNodes(RowLine line, inout RowWalk walk, int slice, float current, out int nodeEnd, out int average) {
+float walkNodes(RowLine line, inout RowWalk walk, float current, out int nodeEnd, out int average) {
   float found = kMixed;
   int level = 2, base = 0; // base: where the level begins
   bool walking = grid.w > 0 && (walk.index & 15) == 0 && walk.index <= line.last;
@@ -131,7 +134,7 @@ float walkNodes(RowLine line, inout RowWalk walk, int slice, float current, out 
     VISIT
     int node = walk.index >> (2 * level), next = (node + 1) << (2 * level);
     float u = rowEnd(line, walk, next), end = rowDepth(line, u);
-    vec4 split = texelFetch(rowTree, ivec2(base + node, slice), 0);
+    vec4 split = texelFetch(rowTree, ivec2(base + node, line.row), 0);
     found = boundsVisibility(walk.depth, end, split.xw);
     nodeEnd = next;
     average = base + node;

@@ -3,8 +3,7 @@
 
 #if SHADOW_VIEWS > 0
 
-int trueSlice;  // the ray lies between this slice and the next
-RowLine trueRow; // and runs along its row
+RowLine trueRow; // of the slice on one side of the ray
 
 // As walkNodes of lib/tree.glsl, but from groups of four texels on, and from anywhere in one: its bounds hold for every
 // part of it.
@@ -19,7 +18,7 @@ void skipNodes(Line line, Visibility current, inout Walk walk) {
   while (walking) {
     int node = at.index >> (2 * level), next = (node + 1) << (2 * level);
     float u = rowEnd(trueRow, at, next);
-    float found = boundsVisibility(at.depth, rowDepth(trueRow, u), texelFetch(rowTree, ivec2(base + node, trueSlice), 0).rg);
+    float found = boundsVisibility(at.depth, rowDepth(trueRow, u), texelFetch(rowTree, ivec2(base + node, trueRow.row), 0).rg);
     if (found == state) {
       advanceRow(trueRow, at, next, u);
       bool up = level < grid.w && (next & ((4 << (2 * level)) - 1)) == 0;
@@ -41,7 +40,6 @@ void skipNodes(Line line, Visibility current, inout Walk walk) {
 
 Light ownedLight(Airlight light, ViewSegment segment, int slice) {
   RowWalk unused;
-  trueSlice = slice;
   startRow(light, segment, slice, trueRow, unused);
   return segmentLight(light, segment);
 }

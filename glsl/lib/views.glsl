@@ -61,9 +61,9 @@ int fadeInto(int owner, Ray ray, vec2 owned[2 * MAX_SHADOW_VIEWS], float s0, flo
 
 #endif
 
-// In-scattered light of [s0, s1] of the ray, shadowed: each view's own part walked, the rest lit or dark. only >= 0: just
-// that view's part; outside: what is in no view, too. The slice is for ownedLight.
-Light shadowedLight(Airlight light, Ray ray, float s0, float s1, int only, bool outside, int slice) {
+// In-scattered light of [s0, s1] of the ray, shadowed: each view's own part walked, the rest lit or dark. Of the views just
+// `views.y` from view `views.x` on; outside: what is in no view, too. The slice is for ownedLight.
+Light shadowedLight(Airlight light, Ray ray, float s0, float s1, ivec2 views, bool outside, int slice) {
   if (!(s1 > s0)) return Light(0.0);
 #if SHADOW_VIEWS == 0
   return Light(airlight(light, s0, s1));
@@ -107,7 +107,7 @@ Light shadowedLight(Airlight light, Ray ray, float s0, float s1, int only, bool 
       if (outside && !inView && (owner >= 0 || litOutside)) sum += Light(airlight(light, s, end));
       int candidate = turn == 0 ? owner : next;
       share = turn == 0 ? weight : 1.0 - weight;
-      if (inView && share > 0.0 && (only < 0 || candidate == only)) view = candidate;
+      if (inView && share > 0.0 && candidate >= views.x && candidate < views.x + views.y) view = candidate;
       from = s;
       to = end;
       turn = turn == 0 && next >= 0 ? 1 : 0;

@@ -40,7 +40,7 @@ vec3 inscatterOf(Ray ray, float ends[kMaxSamples], int samples) {
     float s0 = from, s1 = min(ends[k], extinction.w);
     from = max(from, s1);
     litRange(light, s0, s1);
-    sum += shadowedLight(light, ray, s0, s1, -1, true, 0) * (float(samples - k) / float(samples));
+    sum += shadowedLight(light, ray, s0, s1, ivec2(0, MAX_SHADOW_VIEWS), true, 0) * (float(samples - k) / float(samples));
   }
   return min(lightColour.rgb * vec3(sum), limits.xxx);
 #else

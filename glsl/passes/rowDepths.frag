@@ -1,9 +1,10 @@
 // Row depths: the shadow map along each slice, one texel a step, four steps a fragment (Chen 2011, 3.2).
-// Reads the slice table and the shadow map (glass map) of one view. Writes rowDepths: texels / 4 x slices, RGBA16 or
+// Reads the slice table and the shadow map (glass map) of one view. Writes rowDepths: texels / 4 x rows, RGBA16 or
 // RGBA32F, coded: four depths or, with the 2x2 filter or glass, the group's split (lib/split.glsl); then also rowShares,
 // its average. What lies behind a row's end is not read.
 #include "shared.glsl"
 #include "lib/slices.glsl"
+#include "lib/rows.glsl"
 #include "lib/shadowMap.glsl"
 #include "lib/split.glsl"
 
@@ -84,14 +85,14 @@ vec4 storedSplit(vec4 split) {
 }
 
 void main() {
-  int slice = int(gl_FragCoord.y), first = 4 * int(gl_FragCoord.x), view = march.x;
-  vec4 row = texelFetch(sliceTable, ivec2(slice, march.y), 0);
+  int first = 4 * int(gl_FragCoord.x), view = viewOfRow(int(gl_FragCoord.y));
+  vec4 row = rowLine(view, sliceOfRow(int(gl_FragCoord.y)));
   vec2 p = row.xy + row.zw * (float(first) + 0.5);
   Point a = pointAt(p, view), b = pointAt(p + row.zw, view);
   Point c = pointAt(p + 2.0 * row.zw, view), d = pointAt(p + 3.0 * row.zw, view);
   float lowest = lowestOf(min(min(a.pane, b.pane), min(c.pane, d.pane)));
   float highest = highestOf(max(max(a.caster, b.caster), max(c.caster, d.caster)));
-  float middle = splitOf(lowest, highest);
+  float middle = splitOf(view, lowest, highest);
   vec4 split = vec4(lowest, lowest, highest, highest);
   Share share = Share(0.0);
   addPoint(a, middle, split, share);
@@ -115,8 +116,8 @@ void main() {
 #else
 
 void main() {
-  int slice = int(gl_FragCoord.y), first = 4 * int(gl_FragCoord.x), view = march.x;
-  vec4 row = texelFetch(sliceTable, ivec2(slice, march.y), 0);
+  int first = 4 * int(gl_FragCoord.x), view = viewOfRow(int(gl_FragCoord.y));
+  vec4 row = rowLine(view, sliceOfRow(int(gl_FragCoord.y)));
   ivec2 last = viewCounts.zw - 1;
   for (int k = 0; k < 4; ++k) {
     vec2 p = row.xy + row.zw * (float(first + k) + 0.5);

@@ -1,6 +1,8 @@
 // Row tree: all levels of the tree behind one another, each gathered from the finest (Chen 2011, 3.3; lib/split.glsl).
-// Reads what rowNodes.frag wrote. Writes rowTree, RGBA, and averages: nodes x slices (layout: lib/tree.glsl).
+// Reads what rowNodes.frag wrote. Writes rowTree, RGBA, and averages: nodes x rows (layout: lib/tree.glsl).
 #include "shared.glsl"
+#include "lib/slices.glsl"
+#include "lib/rows.glsl"
 #include "lib/split.glsl"
 uniform sampler2D rowNodes;
 uniform sampler2D rowNodeMeans;
@@ -23,25 +25,25 @@ Average averageAt(ivec2 at) {
 }
 
 void main() {
-  int slice = int(gl_FragCoord.y), node = int(gl_FragCoord.x), level = 2;
+  int row = int(gl_FragCoord.y), view = viewOfRow(row), node = int(gl_FragCoord.x), level = 2;
   while (node >= grid.z >> (2 * level) && level < grid.w) {
     node -= grid.z >> (2 * level);
     ++level;
   }
   int count = 1 << (2 * (level - 2)), first = node * count;
-  vec4 split = texelFetch(rowNodes, ivec2(first, slice), 0);
-  Average average = averageAt(ivec2(first, slice));
+  vec4 split = texelFetch(rowNodes, ivec2(first, row), 0);
+  Average average = averageAt(ivec2(first, row));
   if (count > 1) {
     vec2 bounds = vec2(3.4e38, -3.4e38);
     for (int i = 0; i < count; ++i) {
-      vec2 one = texelFetch(rowNodes, ivec2(first + i, slice), 0).xw;
+      vec2 one = texelFetch(rowNodes, ivec2(first + i, row), 0).xw;
       bounds = vec2(min(bounds.x, one.x), max(bounds.y, one.y));
     }
-    float middle = splitOf(bounds.x, bounds.y);
+    float middle = splitOf(view, bounds.x, bounds.y);
     split = bounds.xxyy;
     average = Average(Share(0.0), Share(0.0));
     for (int i = 0; i < count; ++i) {
-      ivec2 at = ivec2(first + i, slice);
+      ivec2 at = ivec2(first + i, row);
       addChild(texelFetch(rowNodes, at, 0), averageAt(at), i, count, middle, split, average);
     }
   }

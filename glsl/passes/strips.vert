@@ -1,29 +1,32 @@
 // Strips: one rectangle per 64 slices, as long as the fullest of them needs, in a target of slices x fragments or,
-// for the rows, fragments x slices.
+// for the rows, fragments x rows.
 // Reads, for the rows (STRIPS_OF_ROWS 1: four texels a fragment), the slice table, or, for the extra march samples (four
 // a fragment), extraOffsets. Draws 6 vertices an instance.
 #include "shared.glsl"
 
 #if STRIPS_OF_ROWS
 #include "lib/slices.glsl"
+#include "lib/rows.glsl"
 
-float fragmentsOf(int slice) { return float(rowTexels(slice) / 4); }
+int lines() { return march.y * grid.x; }
+float fragmentsOf(int row) { return float(rowTexels(viewOfRow(row), sliceOfRow(row)) / 4); }
 float room() { return float(grid.z / 4); }
 #else
 uniform sampler2D extraOffsets;
 
+int lines() { return grid.x; }
 float fragmentsOf(int slice) { return texelFetch(extraOffsets, ivec2(slice, grid.y / 64), 0).r; }
 float room() { return float(grid.y / 4); }
 #endif
 
 void main() {
   const int kWidth = 64;
-  float rows = 0.0;
+  float fragments = 0.0;
   for (int i = 0; i < kWidth; ++i)
-    rows = max(rows, fragmentsOf(min(kWidth * gl_InstanceID + i, grid.x - 1)));
+    fragments = max(fragments, fragmentsOf(min(kWidth * gl_InstanceID + i, lines() - 1)));
   bool right = gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4;
   bool top = gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5;
-  vec2 corner = vec2(kWidth * (gl_InstanceID + (right ? 1 : 0)), top ? rows : 0.0) / vec2(grid.x, room());
+  vec2 corner = vec2(kWidth * (gl_InstanceID + (right ? 1 : 0)), top ? fragments : 0.0) / vec2(lines(), room());
 #if STRIPS_OF_ROWS
   corner = corner.yx;
 #endif

@@ -255,8 +255,9 @@ struct Statistics {
   std::uint64_t bytes = 0;       ///< GL memory the effect holds in textures and buffers
   int compiledPrograms = 0;      ///< shader variants compiled so far
   std::uint64_t fixupPixels = 0; ///< pixels that were marched by themselves after epipolar sampling
-  /// Camera rays integrated, over all lights and shadow views; march samples that are integrated together, up to four
-  /// of a slice, count as one. Reading it waits for the GPU.
+  /// Camera rays integrated, over all lights, and over parts of a light's shadow views where those are too large to be
+  /// marched at once; march samples that are integrated together, up to four of a slice, count as one. Reading it waits
+  /// for the GPU.
   std::uint64_t marchedSamples = 0;
   /// With View::NodeVisits what that view shows, as a mean over the image: nodes and groups of texels that a ray looks
   /// at, in all shadow views of the first light. Else 0.

@@ -13,7 +13,8 @@
 
 #include <cmath>
 
-// One light. Boxes are passes, the rest are textures (Targets.cpp); [rows] and both marches run once a shadow view.
+// One light. Boxes are passes, the rest are textures (Targets.cpp); [rows] and both marches run once for all shadow
+// views, or for some at a time (SliceContext::draws).
 //
 //   light, camera --> [slices] --> slice table, which all passes read
 //   shadow map, glass map --> [rows] --> row depths, row tree
@@ -41,18 +42,18 @@ Status runEpipolar(SliceContext& context) {
   march_extra::Out extra;
   interpolate::Out interpolated;
   if (Status s = samples::run(context, samples); !s) return s;
-  for (int view = 0; view < context.draws(); ++view) {
-    if (Status s = rows::run(context, {view}, rows); !s) return s;
-    if (Status s = march::run(context, {view, rows, samples.ends}, marched); !s) return s;
+  for (int draw = 0; draw < context.draws(); ++draw) {
+    if (Status s = rows::run(context, {draw}, rows); !s) return s;
+    if (Status s = march::run(context, {draw, rows, samples.ends}, marched); !s) return s;
   }
   mean_light::Out mean;
   if (std::isfinite(context.inputs.frame->settings.spreadThreshold))
     if (Status s = mean_light::run(context, {marched.marched}, mean); !s) return s;
   if (Status s = refine::run(context, {samples.marks, marched.marched}, refined); !s) return s;
-  for (int view = 0; view < context.draws(); ++view) {
-    if (context.views() > 1) // only the last view's rows are at hand
-      if (Status s = rows::run(context, {view}, rows); !s) return s;
-    const march_extra::In in{view, rows, samples.ends, refined.marks, refined.offsets};
+  for (int draw = 0; draw < context.draws(); ++draw) {
+    if (context.draws() > 1) // only the last draw's rows are at hand
+      if (Status s = rows::run(context, {draw}, rows); !s) return s;
+    const march_extra::In in{draw, rows, samples.ends, refined.marks, refined.offsets};
     if (Status s = march_extra::run(context, in, extra); !s) return s;
   }
   const interpolate::In in{samples.ends, refined.marks, refined.offsets, marched.marched, extra};

@@ -4,11 +4,11 @@ namespace tyndall::passes::march {
 
 Status run(SliceContext& context, const In& in, Out& out) {
   const slices::Out& slices = context.slices;
-  context.selectView(in.view);
+  context.selectDraw(in.draw);
   context.bindSlices();
   context.bind(gl::Unit::SampleEnds, in.sampleEnds);
   rows::bind(context, in.rows);
-  setBlend(context.pass, in.view == 0 ? Blend::Replace : Blend::AddAll);
+  setBlend(context.pass, in.draw == 0 ? Blend::Replace : Blend::AddAll);
   if (Status s = context.target(Target::Marched, slices.count, slices.samples / 16 + 1, out.marched); !s) return s;
   context.recorder.countMarched(slices.regularSamples);
   return context.draw("march", "passes/march.frag", context.definitions);

@@ -1,5 +1,5 @@
-// March: inscatter at the regular march samples, the first of every sixteen, through one shadow view
-// (glsl/passes/march). Views add up.
+// March: inscatter at the regular march samples, the first of every sixteen, through the shadow
+// views of one draw (glsl/passes/march). Draws add up.
 #pragma once
 
 #include "passes/Rows.h"
@@ -7,8 +7,8 @@
 namespace tyndall::passes::march {
 
 struct In {
-  int view = 0;
-  rows::Out rows; ///< of that view
+  int draw = 0;
+  rows::Out rows; ///< of that draw
   gl::Uint sampleEnds = 0;
 };
 

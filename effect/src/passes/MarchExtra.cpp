@@ -15,13 +15,13 @@ Status attachTargets(SliceContext& context, Out& out) {
 } // namespace
 
 Status run(SliceContext& context, const In& in, Out& out) {
-  context.selectView(in.view);
+  context.selectDraw(in.draw);
   context.bindSlices();
   context.bind(gl::Unit::SampleEnds, in.sampleEnds);
   context.bind(gl::Unit::Marks, in.marks);
   context.bind(gl::Unit::ExtraOffsets, in.offsets);
   rows::bind(context, in.rows);
-  setBlend(context.pass, in.view == 0 ? Blend::Replace : Blend::AddAll);
+  setBlend(context.pass, in.draw == 0 ? Blend::Replace : Blend::AddAll);
   if (Status s = attachTargets(context, out); !s) return s;
   const bool ok = context.recorder.runCounted(context.inputs.name + " march extra", [&] {
     return drawStrips(context.pass, "passes/strips.vert", context.slices.count, "passes/marchExtra.frag",

@@ -1,5 +1,5 @@
-// March extra: inscatter at the marked samples between the regular ones, packed, through one shadow view
-// (glsl/passes/strips, marchExtra). Views add up.
+// March extra: inscatter at the marked samples between the regular ones, packed, through the shadow
+// views of one draw (glsl/passes/strips, marchExtra). Draws add up.
 #pragma once
 
 #include "passes/Rows.h"
@@ -7,8 +7,8 @@
 namespace tyndall::passes::march_extra {
 
 struct In {
-  int view = 0;
-  rows::Out rows; ///< of that view
+  int draw = 0;
+  rows::Out rows; ///< of that draw
   gl::Uint sampleEnds = 0;
   gl::Uint marks = 0;
   gl::Uint offsets = 0;

@@ -14,10 +14,10 @@ gl::Definitions visitsOf(exact::Variant variant) {
   return definitions;
 }
 
-Status drawPixels(SliceContext& context, int view) {
+Status drawPixels(SliceContext& context, int draw) {
   const Frame& frame = *context.inputs.frame;
-  if (Status s = context.inputs.attachDestination(false, view == 0); !s) return s;
-  setBlend(context.pass, view == 0 ? context.inputs.blend : Blend::Add);
+  if (Status s = context.inputs.attachDestination(false, draw == 0); !s) return s;
+  setBlend(context.pass, draw == 0 ? context.inputs.blend : Blend::Add);
   context.recorder.countMarched(static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height));
   return context.draw("pixels", kShader, context.definitions);
 }
@@ -32,13 +32,13 @@ Status drawVisits(SliceContext& context) {
 
 Status run(SliceContext& context, const In& in) {
   rows::Out rows;
-  for (int view = 0; view < context.draws(); ++view) {
-    if (Status s = rows::run(context, {view}, rows); !s) return s;
-    context.selectView(view);
+  for (int draw = 0; draw < context.draws(); ++draw) {
+    if (Status s = rows::run(context, {draw}, rows); !s) return s;
+    context.selectDraw(draw);
     context.bindSceneDepth();
     context.bindSlices();
     rows::bind(context, rows);
-    if (Status s = in.countVisits ? drawVisits(context) : drawPixels(context, view); !s) return s;
+    if (Status s = in.countVisits ? drawVisits(context) : drawPixels(context, draw); !s) return s;
   }
   return {};
 }

@@ -13,8 +13,8 @@ int treeNodes(int texels, int finest, int levels) {
 
 // Makes a row texture of full size the target; only this frame's rows are drawn.
 Status target(SliceContext& context, Target which, int width, int drawn, gl::Uint& texture) {
-  if (Status s = context.target(which, width, context.slices.count, texture); !s) return s;
-  context.gl.Viewport(0, 0, drawn, context.slices.count);
+  if (Status s = context.target(which, width, context.rowRoom(), texture); !s) return s;
+  context.gl.Viewport(0, 0, drawn, context.rows());
   return {};
 }
 
@@ -25,9 +25,9 @@ struct TreeTargets {
 
 Status targets(SliceContext& context, const TreeTargets& which, int width, int drawn, Out& out) {
   if (Status s = target(context, which.splits, width, drawn, out.tree); !s) return s;
-  if (Status s = context.attachMore(1, which.means, width, context.slices.count, out.means); !s) return s;
+  if (Status s = context.attachMore(1, which.means, width, context.rowRoom(), out.means); !s) return s;
   if (!context.inputs.variant.glass) return {};
-  return context.attachMore(2, which.moments, width, context.slices.count, out.moments);
+  return context.attachMore(2, which.moments, width, context.rowRoom(), out.moments);
 }
 
 // Draws what has one fragment for four texels of a row, where rows are.
@@ -40,7 +40,7 @@ gl::Variant inStrips(const char* fragment, const exact::Variant& variant) {
 Status drawStrips(SliceContext& context, const char* name, const char* fragment) {
   const gl::Variant v = inStrips(fragment, context.inputs.variant);
   const bool ok = context.recorder.run(context.inputs.name + " " + name, [&] {
-    return drawStrips(context.pass, v.vertex, context.slices.count, v.fragment, v.definitions);
+    return drawStrips(context.pass, v.vertex, context.rows(), v.fragment, v.definitions);
   });
   return ok ? Status{} : context.shaderError();
 }
@@ -50,14 +50,14 @@ Status drawStrips(SliceContext& context, const char* name, const char* fragment)
 Status run(SliceContext& context, const In& in, Out& out) {
   if (context.views() == 0) return {};
   const int room = context.slices.rowTexels, drawn = context.slices.block.grid.z, levels = context.slices.block.grid.w;
-  context.selectView(in.view);
+  context.selectDraw(in.draw);
   context.bindSlices();
   context.bindMaps();
   setBlend(context.pass, Blend::Replace);
   if (Status s = target(context, Target::RowDepths, room / 4, drawn / 4, out.depths); !s) return s;
   const bool hasShares = context.inputs.variant.glass || context.inputs.variant.bilinear;
   if (hasShares)
-    if (Status s = context.attachMore(1, Target::RowShares, room / 4, context.slices.count, out.shares); !s) return s;
+    if (Status s = context.attachMore(1, Target::RowShares, room / 4, context.rowRoom(), out.shares); !s) return s;
   Status drawnDepths = drawStrips(context, "rows", "passes/rowDepths.frag");
   context.detachMore(1);
   if (!drawnDepths) return drawnDepths;
@@ -86,14 +86,14 @@ Status runPairs(SliceContext& context, const In& in, Out& out) {
   const int room = context.slices.rowTexels, drawn = context.slices.block.grid.z, levels = context.slices.block.grid.w;
   if (context.views() == 0 || levels == 0) return {};
   gl::Uint pairs = 0;
-  context.selectView(in.view);
+  context.selectDraw(in.draw);
   context.bindSlices();
   bind(context, out);
   setBlend(context.pass, Blend::Replace);
   const int groups = drawn / 4;
   if (Status s = target(context, Target::PairTree, treeNodes(room, 1, levels), groups, pairs); !s) return s;
   if (Status s = drawStrips(context, "pair groups", "passes/pairTree.frag"); !s) return s;
-  context.gl.Viewport(groups, 0, treeNodes(drawn, 2, levels), context.slices.count);
+  context.gl.Viewport(groups, 0, treeNodes(drawn, 2, levels), context.rows());
   if (Status s = context.draw("pair tree", "passes/pairTree.frag", context.definitions); !s) return s;
   out.tree = pairs;
   return {};

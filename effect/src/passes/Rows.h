@@ -1,4 +1,4 @@
-// Rows: the shadow map of one view along every slice, and a min/max tree over each (Chen 2011, 3.2 and 3.3;
+// Rows: the shadow map along every slice, for the views of one draw, and a min/max tree over each (Chen 2011, 3.2 and 3.3;
 // glsl/passes/rowDepths, rowNodes, rowTree, pairTree).
 #pragma once
 
@@ -7,7 +7,7 @@
 namespace tyndall::passes::rows {
 
 struct In {
-  int view = 0;
+  int draw = 0;
 };
 
 struct Out {

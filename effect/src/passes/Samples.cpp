@@ -4,7 +4,7 @@ namespace tyndall::passes::samples {
 
 Status run(SliceContext& context, Out& out) {
   const slices::Out& slices = context.slices;
-  context.selectView(0);
+  context.selectDraw(0);
   context.bindSceneDepth();
   context.bindSlices();
   setBlend(context.pass, Blend::Replace);

@@ -1,5 +1,6 @@
 #include "passes/SliceContext.h"
 
+#include <algorithm>
 #include <array>
 
 namespace tyndall::passes {
@@ -24,9 +25,10 @@ bool isWide(const SliceContext& context, Target which) {
 
 } // namespace
 
-void SliceContext::selectView(int view) {
+void SliceContext::selectDraw(int draw) {
   glm::ivec4& march = slices.block.march;
-  march = glm::ivec4(view, 2 + 2 * view, view == 0 ? 1 : 0, march.w);
+  const int first = draw * slices.viewsPerDraw;
+  march = glm::ivec4(first, std::min(slices.viewsPerDraw, march.w - first), draw == 0 ? 1 : 0, march.w);
   inputs.upload(2, &slices.block, sizeof slices.block);
 }
 

@@ -40,11 +40,15 @@ struct SliceContext {
   bool isColoured() const { return !inputs.variant.monochrome || inputs.variant.glass; }
   /// Shadow views of the light; 0 without a shadow map.
   int views() const { return inputs.variant.shadowViews == 0 ? 0 : slices.block.march.w; }
-  /// Draws that march it: one a view, and at least one, which brings the light that is outside all views.
-  int draws() const { return views() > 0 ? views() : 1; }
+  /// Draws that march it: as few as row textures of bounded size allow, and at least one, which brings the light that is
+  /// outside all views.
+  int draws() const { return views() > 0 ? (views() + slices.viewsPerDraw - 1) / slices.viewsPerDraw : 1; }
 
-  /// Uploads the block for a draw through one view.
-  void selectView(int view);
+  /// Uploads the block for one of the draws.
+  void selectDraw(int draw);
+  /// Rows that row textures have room for, and those of the selected draw.
+  int rowRoom() const { return slices.count * slices.viewsPerDraw; }
+  int rows() const { return slices.count * slices.block.march.y; }
 
   void bind(gl::Unit unit, gl::Uint texture) const { bindTexture(pass, unit, gl::TEXTURE_2D, texture); }
   void bindSlices() const { bind(gl::Unit::SliceTable, slices.table); }

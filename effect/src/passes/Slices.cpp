@@ -25,6 +25,19 @@ int chooseRow(const In& in, int longestRow, blocks::EpipolarBlock& block) {
   return room;
 }
 
+// Shadow views whose rows stand above one another in the row textures: all of a light's, so that rows are made once and
+// rays marched once; in equal parts where that would be too much, as for the six large faces of a lamp.
+int chooseViewsPerDraw(const PassContext& context, const Out& out) {
+  constexpr std::int64_t kMostTexels = std::int64_t{24} << 20; // of all rows; 4 to 10 bytes each, with the tree
+  const int views = std::max(out.block.march.w, 1);
+  gl::Int mostRows = 0;
+  context.gl.GetIntegerv(gl::MAX_TEXTURE_SIZE, &mostRows);
+  const std::int64_t most = std::min<std::int64_t>(kMostTexels / out.rowTexels, mostRows) / out.count;
+  const int together = static_cast<int>(std::clamp<std::int64_t>(most, 1, views));
+  const int draws = (views + together - 1) / together;
+  return (views + draws - 1) / draws;
+}
+
 } // namespace
 
 Status outOfMemory() { return {StatusCode::OutOfMemory, "GL could not allocate an epipolar texture"}; }
@@ -40,6 +53,7 @@ Status run(const PassContext& context, Targets& targets, const In& in, Out& out)
                                    std::log2(1 + settings.breakThreshold));
   out.block.spread = glm::vec4(settings.spreadThreshold, settings.averageThreshold, 0, 0);
   out.rowTexels = chooseRow(in, table.longestRow, out.block);
+  out.viewsPerDraw = chooseViewsPerDraw(context, out);
 
   out.table = targets.get(Target::SliceTable, table.slices, table.rows);
   if (!out.table) return outOfMemory();

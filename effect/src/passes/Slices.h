@@ -22,8 +22,9 @@ struct Out {
   int count = 0;                    ///< slices
   int samples = 0;                  ///< of a slice, at most
   int rowTexels = 0;                ///< that the row textures have room for; the block's grid.z are drawn
+  int viewsPerDraw = 1;             ///< shadow views whose rows are at hand together
   std::uint64_t regularSamples = 0; ///< march samples that every slice has, over all slices
-  blocks::EpipolarBlock block{};    ///< complete but for the view (SliceContext::selectView)
+  blocks::EpipolarBlock block{};    ///< complete but for the views (SliceContext::selectDraw)
 };
 
 Status run(const PassContext& context, Targets& targets, const In& in, Out& out);

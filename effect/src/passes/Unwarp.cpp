@@ -26,28 +26,28 @@ gl::Definitions definitionsOf(const exact::Variant& variant, bool spread) {
   return definitions;
 }
 
-// The few pixels that no sample serves: along their slice's row. With several views only the last one's rows are at
+// The few pixels that no sample serves: along their slice's row. With several draws only the last one's rows are at
 // hand, and to make them all again would take longer than every texel does.
 Status fixUpUnserved(SliceContext& context, const In& in) {
   rows::bind(context, in.rows);
   const StencilTest test(context.gl, gl::EQUAL, 0, gl::KEEP);
-  return context.draw("fix-up", context.views() > 1 ? "passes/exact.frag" : "passes/pixelTree.frag",
+  return context.draw("fix-up", context.draws() > 1 ? "passes/exact.frag" : "passes/pixelTree.frag",
                       context.definitions);
 }
 
 // Those pixels and the many between slices that disagree: along their own line.
 Status fixUpBetweenSlices(SliceContext& context, const In& in) {
   rows::Out rows = in.rows;
-  for (int view = 0; view < context.draws(); ++view) {
-    if (context.views() > 1) // only the last view's rows are at hand
-      if (Status s = rows::run(context, {view}, rows); !s) return s;
-    if (Status s = rows::runPairs(context, {view}, rows); !s) return s;
-    context.selectView(view);
+  for (int draw = 0; draw < context.draws(); ++draw) {
+    if (context.draws() > 1) // only the last draw's rows are at hand
+      if (Status s = rows::run(context, {draw}, rows); !s) return s;
+    if (Status s = rows::runPairs(context, {draw}, rows); !s) return s;
+    context.selectDraw(draw);
     context.bindSceneDepth();
     rows::bind(context, rows);
-    if (Status s = context.inputs.attachDestination(true, view == 0); !s) return s;
+    if (Status s = context.inputs.attachDestination(true, draw == 0); !s) return s;
     const StencilTest test(context.gl, gl::EQUAL, 0, gl::KEEP);
-    setBlend(context.pass, view == 0 ? context.inputs.blend : Blend::Add);
+    setBlend(context.pass, draw == 0 ? context.inputs.blend : Blend::Add);
     if (Status s = context.draw("fix-up", "passes/fixup.frag", context.definitions); !s) return s;
   }
   return {};

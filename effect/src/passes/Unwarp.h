@@ -10,7 +10,7 @@ namespace tyndall::passes::unwarp {
 struct In {
   gl::Uint epipolarInscatter = 0;
   gl::Uint meanLight = 0; ///< 0: settings.spreadThreshold is infinite
-  rows::Out rows;         ///< of the last view: with several, the fix-up walks every texel or makes them once more
+  rows::Out rows;         ///< of the last draw: with several, the fix-up walks every texel or makes them once more
 };
 
 /// Writes to the light's destination; leaves 0 in the stencil of the pixels that were fixed up, 1 in the others'.
