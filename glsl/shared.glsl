@@ -48,6 +48,8 @@ UNIFORM_BLOCK(EpipolarBlock) {
   vec4 spread;        // x: spread of the samples around a pixel, as a part of the picture's mean, over which it is marched by itself;
                       // y: optical depth of a stretch of a row that is taken by its average
   vec4 rowCode;       // coded depth of a row = x depth + y; z: that of a texel without a caster; w: 65535 if it is stored in 16 bit, else 0
+  vec4 lowRankRay;    // low rank (lib/lowRank.glsl): first coordinate of the grid of camera rays, samples a unit; z: terms
+  vec4 lowRankLight;  // extent of the grid of light rays; y: 1 if each slice has factors of its own; z: where the grid begins
   ivec4 grid;         // slices, samples, texels of a row, levels of the tree or 0: none
   ivec4 march;        // shadow views of a draw: the first, how many; z: 1 for the draw that brings what is outside all views; w: of the light
 };

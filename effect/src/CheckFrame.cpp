@@ -168,7 +168,8 @@ Status checkView(const Frame& frame) {
   if (technique == Technique::Exact || frame.depth.multisampled)
     return invalid("settings.view", name,
                    "needs slices: technique Tree or Epipolar, and a depth that is not multisampled");
-  if (technique == Technique::Tree && view != View::Slices && view != View::NodeVisits)
+  if ((technique == Technique::Tree || technique == Technique::LowRank) && view != View::Slices &&
+      view != View::NodeVisits)
     return invalid("settings.view", name, "needs samples: technique Epipolar");
   return {};
 }
@@ -177,7 +178,7 @@ Status checkSettings(const Settings& settings) {
   const auto enumerator = [](const char* field, int value) {
     return invalid(field, std::to_string(value), "must be one of the enumerators");
   };
-  if (settings.technique < Technique::Exact || settings.technique > Technique::Epipolar)
+  if (settings.technique < Technique::Exact || settings.technique > Technique::LowRank)
     return enumerator("settings.technique", static_cast<int>(settings.technique));
   if (settings.shadowFilter != ShadowFilter::Nearest && settings.shadowFilter != ShadowFilter::Bilinear)
     return enumerator("settings.shadowFilter", static_cast<int>(settings.shadowFilter));
@@ -197,6 +198,8 @@ Status checkSettings(const Settings& settings) {
     return invalid("settings.averageThreshold", text(settings.averageThreshold), "must be 0 to 1");
   if (!(settings.spreadThreshold > 0))
     return invalid("settings.spreadThreshold", text(settings.spreadThreshold), "must be > 0");
+  if (settings.lowRankTerms < 1 || settings.lowRankTerms > 8)
+    return invalid("settings.lowRankTerms", std::to_string(settings.lowRankTerms), "must be 1 to 8");
   return {};
 }
 

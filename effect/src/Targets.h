@@ -1,5 +1,5 @@
-// The effect's own textures: one table of name, format, size and reason. Allocated when a pass first needs them; shared by
-// lights that ask for the same size and format, and given up after a frame that did not use them.
+// The effect's own textures: one table of name, format, size and reason. Allocated when a pass first needs them; shared
+// by lights that ask for the same size and format, and given up after a frame that did not use them.
 #pragma once
 
 #include "gl/Objects.h"
@@ -34,6 +34,8 @@ enum class Target {
   RowMeans,
   RowMoments,
   PairTree,
+  LowRankRays,
+  LowRankLights,
   View,
   ViewExact,
   ViewRowMeans,

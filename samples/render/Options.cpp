@@ -14,7 +14,7 @@ namespace render {
 namespace {
 
 constexpr std::array<std::string_view, 4> kProfiles = {"performance", "balanced", "high", "reference"};
-constexpr std::array<std::string_view, 3> kTechniques = {"exact", "tree", "epipolar"};
+constexpr std::array<std::string_view, 4> kTechniques = {"exact", "tree", "epipolar", "lowrank"};
 // In the order of tyndall::View.
 constexpr std::array<std::string_view, 10> kViews = {"composite",     "slices",       "samples",     "breaks",
                                                      "march-samples", "fixup-pixels", "node-visits", "inscatter",
@@ -32,7 +32,7 @@ Files
   Files are written beside their name and renamed when complete.
 Views
   composite (default), inscatter, transmittance, and difference (to exact; grey 0, red +10 %, blue -10 % of the mean);
-  with --technique tree or epipolar slices and node-visits (black 0 to white 1023, ticks at 4, 16, 64, 256); with
+  with --technique tree, lowrank or epipolar slices and node-visits (black 0 to white 1023, ticks at 4, 16, 64, 256); with
   epipolar samples, breaks, march-samples and fixup-pixels. tyndall.h explains the colours. All but composite and
   inscatter go into the PNG without tone mapping.
 Exit status
@@ -41,8 +41,8 @@ Exit status
 /// The options as typed.
 struct Typed {
   std::string scene, camera, eye, target, fov, sun, size, supersample, profile, technique, view, slices, samples,
-      rowStep, tree, breakThreshold, bendThreshold, leastWeight, averageThreshold, spreadThreshold, cascadeFade, filter,
-      medium, shadowSize, cascades, frames, repeat, context, stats, exposure;
+      rowStep, tree, breakThreshold, bendThreshold, leastWeight, averageThreshold, spreadThreshold, lowRankTerms,
+      cascadeFade, filter, medium, shadowSize, cascades, frames, repeat, context, stats, exposure;
   std::vector<std::string> out;
   bool reversedDepth = false;
 };
@@ -149,12 +149,13 @@ void readQuality(const Typed& typed, Options& options) {
   options.leastWeight = parseThreshold("--least-weight", typed.leastWeight, true, 1);
   options.averageThreshold = parseThreshold("--average-threshold", typed.averageThreshold, true, 1);
   options.spreadThreshold = parseThreshold("--spread-threshold", typed.spreadThreshold, false, 1e6);
+  if (!typed.lowRankTerms.empty()) options.lowRankTerms = parseInt("--low-rank-terms", typed.lowRankTerms, 1, 8);
   if (!typed.tree.empty() && typed.tree != "on" && typed.tree != "off")
     failUsage("--tree", typed.tree, "must be on or off");
   options.minMaxTree = typed.tree != "off";
   options.technique = !typed.technique.empty() ? typed.technique : typed.profile == "reference" ? "exact" : "epipolar";
   if (std::find(kTechniques.begin(), kTechniques.end(), options.technique) == kTechniques.end())
-    failUsage("--technique", options.technique, "must be exact, tree or epipolar");
+    failUsage("--technique", options.technique, "must be exact, tree, epipolar or lowrank");
   if (!typed.view.empty()) options.view = parseView(typed.view);
   if (typed.filter == "bilinear")
     options.shadowFilter = tyndall::ShadowFilter::Bilinear;
@@ -199,7 +200,7 @@ void addOptions(CLI::App& app, Typed& typed) {
       ->type_name("N");
   app.add_option("--profile", typed.profile, "quality: performance, balanced, high (default) or reference")
       ->type_name("NAME");
-  app.add_option("--technique", typed.technique, "exact, tree or epipolar; by the profile if not given")
+  app.add_option("--technique", typed.technique, "exact, tree, epipolar or lowrank; by the profile if not given")
       ->type_name("NAME");
   app.add_option("--view", typed.view, "a debug view instead of the composite, see below")->type_name("NAME");
   app.add_option("--slices", typed.slices, "epipolar lines; by the profile if not given")->type_name("N");
@@ -220,6 +221,8 @@ void addOptions(CLI::App& app, Typed& typed) {
   app.add_option("--spread-threshold", typed.spreadThreshold,
                  "spread of the samples around a pixel over which it is marched by itself")
       ->type_name("X");
+  app.add_option("--low-rank-terms", typed.lowRankTerms, "terms of technique lowrank, 1 to 8 (default 4)")
+      ->type_name("N");
   app.add_option("--filter", typed.filter, "of the shadow map: nearest (default) or bilinear")->type_name("NAME");
   app.add_option("--medium", typed.medium, "the medium, instead of the scene's")->type_name("M.json");
   app.add_option("--shadow-size", typed.shadowSize, "texels per side of a shadow map (default 4096)")->type_name("N");

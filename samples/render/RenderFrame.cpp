@@ -37,9 +37,10 @@ tyndall::Settings settingsOf(const Options& options) {
                        : options.profile == "high"      ? tyndall::Profile::High
                                                         : tyndall::Profile::Reference;
   tyndall::Settings settings = tyndall::settingsOf(profile);
-  settings.technique = options.technique == "exact"  ? tyndall::Technique::Exact
-                       : options.technique == "tree" ? tyndall::Technique::Tree
-                                                     : tyndall::Technique::Epipolar;
+  settings.technique = options.technique == "exact"     ? tyndall::Technique::Exact
+                       : options.technique == "tree"    ? tyndall::Technique::Tree
+                       : options.technique == "lowrank" ? tyndall::Technique::LowRank
+                                                        : tyndall::Technique::Epipolar;
   settings.view = options.view;
   settings.shadowFilter = options.shadowFilter;
   settings.slices = options.slices.value_or(settings.slices);
@@ -50,6 +51,7 @@ tyndall::Settings settingsOf(const Options& options) {
   settings.bendThreshold = options.bendThreshold.value_or(settings.bendThreshold);
   settings.leastWeight = options.leastWeight.value_or(settings.leastWeight);
   settings.averageThreshold = options.averageThreshold.value_or(settings.averageThreshold);
+  settings.lowRankTerms = options.lowRankTerms.value_or(settings.lowRankTerms);
   settings.spreadThreshold = options.spreadThreshold.value_or(settings.spreadThreshold);
   return settings;
 }

@@ -30,6 +30,7 @@ constexpr Family kFamilies[] = {
     {"froxels", Group::Shipping, 1, 3, 1, 1024, ":D for 160x90xD, or :WxHxD"},
     {"epipolar-march", Group::Shipping, 1, 2, 2, 8192, ":LINES or :LINESxSAMPLES, a march per texel (2010)"},
     {"tree", Group::Research, 0, 1, 1, 8192, "every pixel through its slice's tree (Chen 2011), [:SLICES]"},
+    {"lowrank", Group::Research, 0, 1, 1, 8, "the same with low-rank airlight (Chen 2011), [:TERMS]"},
     {"pyramid", Group::Research, 0, 0, 0, 0, "a 2D min/max pyramid of the shadow map, walked per pixel"},
     {"incremental", Group::Research, 1, 2, 2, 8192, ":LINES or :LINESxSAMPLES, on the CPU (Baran 2010)"},
     {"volumes", Group::Research, 1, 1, 2, 4096,
@@ -106,7 +107,7 @@ std::vector<std::string> allTechniques() {
       names.push_back(fmt::format("{}:{}", family, steps));
   for (const char* name :
        {"froxels:64", "froxels:128", "epipolar-march:256", "epipolar-march:512", "epipolar-march:1024", "tree:256",
-        "tree:512", "tree:1024", "pyramid", "volumes:256", "volumes:512", "volumes:1024", "volumes:2048",
+        "tree:512", "tree:1024", "lowrank:4", "pyramid", "volumes:256", "volumes:512", "volumes:1024", "volumes:2048",
         "incremental:256", "incremental:512", "incremental:1024"})
     names.emplace_back(name);
   return names;
@@ -119,6 +120,11 @@ tyndall::Settings settingsFor(const Technique& technique) {
                                                    : technique.family == "balanced"    ? Profile::Balanced
                                                                                        : Profile::High);
   if (technique.family == "tree") settings.technique = tyndall::Technique::Tree;
+  if (technique.family == "lowrank") {
+    settings.technique = tyndall::Technique::LowRank;
+    if (!technique.parameters.empty()) settings.lowRankTerms = technique.parameters[0];
+    return settings;
+  }
   if (!technique.parameters.empty()) settings.slices = technique.parameters[0];
   if (technique.parameters.size() > 1) settings.samples = technique.parameters[1];
   return settings;
@@ -237,7 +243,8 @@ std::unique_ptr<Baseline> makeBaseline(const Technique& technique) {
 } // namespace
 
 std::unique_ptr<Runner> makeRunner(const Technique& technique, tyndall::GlLoader loader, bool software) {
-  const bool isEffect = technique.group == Group::Exact || technique.group == Group::Ours || technique.family == "tree";
+  const bool isEffect = technique.group == Group::Exact || technique.group == Group::Ours ||
+                        technique.family == "tree" || technique.family == "lowrank";
   if (isEffect) return std::make_unique<EffectRunner>(settingsFor(technique), loader, software);
   return std::make_unique<BaselineRunner>(makeBaseline(technique));
 }

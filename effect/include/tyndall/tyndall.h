@@ -152,11 +152,12 @@ struct Medium {
   double farDistance = kInfinity;        ///< where rays to the sky end, world units, > 0
 };
 
-/// Tree and Epipolar need shadow views whose centre is the light itself: its direction or its position.
+/// All but Exact need shadow views whose centre is the light itself: its direction or its position.
 enum class Technique {
   Exact,    ///< every shadow texel along every pixel's ray, closed form or quadrature per lit span: the reference
   Tree,     ///< every pixel along its nearest slice's row, skipping by a min/max tree (Chen 2011)
   Epipolar, ///< march samples along epipolar slices, interpolated and unwarped (Yusov 2013)
+  LowRank,  ///< as Tree, lit spans integrated by a low-rank approximation of the airlight (Chen 2011), for comparison
 };
 
 enum class ShadowFilter {
@@ -169,20 +170,20 @@ enum class Profile { Performance, Balanced, High, Reference };
 
 /// Debug views: pictures of what the effect did. All but Composite replace the RGB of Frame::colour, which must be
 /// given; outputs are written as ever. Colours are linear, mostly in [0, 1]. Views of slices and samples show the first
-/// light that is drawn, and black where none is. They need Technique::Tree or Epipolar where said, and never a
+/// light that is drawn, and black where none is. They need the technique that is said, and never a
 /// multisampled scene depth, which only Exact renders.
 enum class View {
-  Composite,     ///< the normal picture
-  Slices,        ///< Tree, Epipolar: each pixel's nearest slice: a hue for 16 of them, every second one darker; the
-                 ///< light's own place in the image white
-  Samples,       ///< Epipolar: samples in each pixel: red counts them, green their quarter, blue their sixteenth
-  Breaks,        ///< Epipolar: samples on the near side of a depth break in red, on the far side in blue
-  MarchSamples,  ///< Epipolar: march samples in each pixel: blue counts the regular ones, red those that breaks, slice
-                 ///< ends and the light's vicinity ask for, green those where the inscatter bends
-  FixupPixels,   ///< Epipolar: pixels that no sample served or, with a spreadThreshold, whose samples differ, red
-  NodeVisits,    ///< Tree, Epipolar: nodes and groups of texels that a ray through the pixel's slice looks at, in all
-                 ///< views. Black 0 over blue, red, yellow to white 1023, by log2(1 + n); ticks of the bar at each
-                 ///< factor of 4. Epipolar marches only some pixels: MarchSamples shows where
+  Composite, ///< the normal picture
+  Slices,  ///< Tree, Epipolar, LowRank: each pixel's nearest slice: a hue for 16 of them, every second one darker; the
+           ///< light's own place in the image white
+  Samples, ///< Epipolar: samples in each pixel: red counts them, green their quarter, blue their sixteenth
+  Breaks,  ///< Epipolar: samples on the near side of a depth break in red, on the far side in blue
+  MarchSamples, ///< Epipolar: march samples in each pixel: blue counts the regular ones, red those that breaks, slice
+                ///< ends and the light's vicinity ask for, green those where the inscatter bends
+  FixupPixels,  ///< Epipolar: pixels that no sample served or, with a spreadThreshold, whose samples differ, red
+  NodeVisits, ///< Tree, Epipolar, LowRank: nodes and groups of texels that a ray through the pixel's slice looks at, in
+              ///< all views. Black 0 over blue, red, yellow to white 1023, by log2(1 + n); ticks of the bar at each
+              ///< factor of 4. Epipolar marches only some pixels: MarchSamples shows where
   Inscatter,     ///< radiance that all lights add
   Transmittance, ///< T(d)
   Difference,    ///< the technique's inscatter less exact's, which is rendered too: mean over R, G, B, as a part of the
@@ -193,17 +194,17 @@ struct Settings {
   Technique technique = Technique::Epipolar;
   View view = View::Composite;
   ShadowFilter shadowFilter = ShadowFilter::Nearest;
-  int slices = 1152; ///< Tree, Epipolar: epipolar lines, 1 to 8192; never more than pixels on the visible border
+  int slices = 1152; ///< all but Exact: epipolar lines, 1 to 8192; never more than pixels on the visible border
   int samples = 512; ///< Epipolar: samples of a slice, a multiple of 64 from 64 to 8192; never denser than pixels
-  int rowStep = 1;   ///< Tree, Epipolar: shadow-map texels from one sample of a row to the next, 1 to 8
+  int rowStep = 1;   ///< all but Exact: shadow-map texels from one sample of a row to the next, 1 to 8
   bool minMaxTree =
-      true; ///< Tree, Epipolar: skip along rows by their min/max tree; off: texel by texel, for measurements
+      true; ///< all but Exact: skip along rows by their min/max tree; off: texel by texel, for measurements
   float breakThreshold = 0.04F; ///< Epipolar: relative change of distance that counts as a depth break, > 0; an
                                 ///< eighth of it, from a straight line, as a crease
   float bendThreshold =
       0.02F; ///< Epipolar: relative bend of the inscatter along a slice that is marched more finely, > 0
   float leastWeight = 0.01F; ///< Epipolar: bilateral weight under which a pixel is marched by itself, 0 to 1
-  /// Tree, Epipolar: optical depth (for lamps also length over distance to the lamp) of a stretch that may be taken as
+  /// All but Exact: optical depth (for lamps also length over distance to the lamp) of a stretch that may be taken as
   /// a whole where a ray passes lit and dark texels between two layers of casters, by the share of lit ones and its
   /// first moment; 0 to 1. 0: never
   float averageThreshold = 0.1F;
@@ -211,6 +212,10 @@ struct Settings {
   /// over which it is marched along its own line through the shadow map, as exactly as by Technique::Exact; > 0. 0.01
   /// to 0.05 bring thin shafts that run between two slices, at several times the cost; no profile asks for it.
   float spreadThreshold = std::numeric_limits<float>::infinity();
+  /// LowRank: terms of the approximation, 1 to 8. Its error grows with the optical depth and with how much a lamp's
+  /// phase function is peaked. Where the airlight has more than two coordinates (an orthographic camera before a lamp,
+  /// a light with a boundary) LowRank is Tree.
+  int lowRankTerms = 4;
 };
 
 /// The settings of a profile. Reference is Technique::Exact.

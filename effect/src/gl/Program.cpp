@@ -29,6 +29,8 @@ constexpr Sampler kSamplers[] = {
     {"extraGreen", Unit::ExtraGreen},
     {"extraBlue", Unit::ExtraBlue},
     {"epipolarInscatter", Unit::EpipolarInscatter},
+    {"lowRankRays", Unit::LowRankRays},
+    {"lowRankLights", Unit::LowRankLights},
     {"rowDepths", Unit::RowDepths},
     {"rowNodes", Unit::RowNodes},
     {"rowTree", Unit::RowTree},

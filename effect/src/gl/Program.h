@@ -40,6 +40,8 @@ enum class Unit : Uint {
   RowNodeMeans = RowMeans,
   RowNodeMoments = RowMoments,
   MeanLight = Marched,
+  LowRankRays = Marks, ///< of the pixel tree, which reads no samples
+  LowRankLights = Extra,
   ViewImage = Marched, ///< debug views run after the passes that read these, or read neither
   ViewExact = Extra,
   ViewMean = EpipolarInscatter,

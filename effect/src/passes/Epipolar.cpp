@@ -74,7 +74,7 @@ Status run(const PassContext& pass, Targets& targets, PassRecorder& recorder, co
   SliceContext context{pass, targets, recorder, scratch, inputs};
   const slices::In in{inputs.frame, inputs.light, inputs.map};
   if (Status s = slices::run(pass, targets, in, context.slices); !s) return s;
-  return inputs.frame->settings.technique == Technique::Tree ? runTree(context) : runEpipolar(context);
+  return inputs.frame->settings.technique == Technique::Epipolar ? runEpipolar(context) : runTree(context);
 }
 
 std::vector<gl::Variant> allVariants() {

@@ -5,7 +5,7 @@
 
 namespace tyndall::passes::epipolar {
 
-/// Adds the light by Technique::Tree or Technique::Epipolar. The frame and light blocks must be bound.
+/// Adds the light by any technique but Technique::Exact. The frame and light blocks must be bound.
 Status run(const PassContext& context, Targets& targets, PassRecorder& recorder, const gl::Framebuffer& scratch,
            const SliceInputs& inputs);
 

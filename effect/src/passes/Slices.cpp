@@ -1,7 +1,5 @@
 #include "passes/Slices.h"
 
-#include "optics/Slices.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -44,7 +42,8 @@ Status outOfMemory() { return {StatusCode::OutOfMemory, "GL could not allocate a
 
 Status run(const PassContext& context, Targets& targets, const In& in, Out& out) {
   const Settings& settings = in.frame->settings;
-  const optics::SliceTable table = optics::makeSlices(*in.frame, *in.light, in.map.width, in.map.height);
+  out.geometry = optics::makeSlices(*in.frame, *in.light, in.map.width, in.map.height);
+  const optics::SliceTable& table = out.geometry;
   out.count = table.slices;
   out.samples = settings.samples;
   out.regularSamples = table.regularSamples;
@@ -55,12 +54,17 @@ Status run(const PassContext& context, Targets& targets, const In& in, Out& out)
   out.rowTexels = chooseRow(in, table.longestRow, out.block);
   out.viewsPerDraw = chooseViewsPerDraw(context, out);
 
-  out.table = targets.get(Target::SliceTable, table.slices, table.rows);
-  if (!out.table) return outOfMemory();
+  return uploadTable(context, targets, Target::SliceTable, table.slices, table.rows, table.texels, out.table);
+}
+
+Status uploadTable(const PassContext& context, Targets& targets, Target which, int width, int height,
+                   const std::vector<glm::vec4>& texels, gl::Uint& texture) {
+  texture = targets.get(which, width, height);
+  if (!texture) return outOfMemory();
   const gl::Functions& gl = context.gl;
   gl.ActiveTexture(gl::TEXTURE0 + static_cast<gl::Enum>(gl::Unit::Upload));
-  gl.BindTexture(gl::TEXTURE_2D, out.table);
-  gl.TexSubImage2D(gl::TEXTURE_2D, 0, 0, 0, table.slices, table.rows, gl::RGBA, gl::FLOAT, table.texels.data());
+  gl.BindTexture(gl::TEXTURE_2D, texture);
+  gl.TexSubImage2D(gl::TEXTURE_2D, 0, 0, 0, width, height, gl::RGBA, gl::FLOAT, texels.data());
   return {};
 }
 

@@ -80,6 +80,11 @@ const std::vector<Knob> kKnobs = {
      {kNan, 0, -0.1, -kInf},
      {1e-38, 0.05, kInf},
      "must be > 0"},
+    {"lowRankTerms",
+     [](Settings& s, double v) { s.lowRankTerms = static_cast<int>(v); },
+     {0, 9, -1},
+     {1, 8},
+     "must be 1 to 8"},
 };
 
 // A map of stripes that are wide against a texel, in front of and behind what the eye sees.
@@ -96,7 +101,7 @@ reference::ShadowImage stripes(int width, int height, int layers) {
 
 TEST_CASE("a knob of the epipolar technique that breaks its rule is refused, field and rule named") {
   tests::RefusalRig rig;
-  for (const Technique technique : {Technique::Exact, Technique::Tree, Technique::Epipolar})
+  for (const Technique technique : {Technique::Exact, Technique::Tree, Technique::Epipolar, Technique::LowRank})
     for (const Knob& knob : kKnobs)
       for (const double value : knob.refused) {
         CAPTURE(knob.field, value);
@@ -116,7 +121,7 @@ TEST_CASE("a knob of the epipolar technique at the ends of its range gives a fin
       CAPTURE(knob.field, value);
       rig.scene.frame.settings = {};
       knob.set(rig.scene.frame.settings, value);
-      for (const Technique technique : {Technique::Tree, Technique::Epipolar})
+      for (const Technique technique : {Technique::Tree, Technique::Epipolar, Technique::LowRank})
         checkFinite(rig, technique);
     }
 }

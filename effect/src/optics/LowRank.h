@@ -1,0 +1,38 @@
+// The airlight as a sum of few products, one factor of the camera ray and one of the light ray (Chen 2011, 3.2
+// and 3.4): in a plane through the eye and the light it depends on the ray's angle beta and on where light crosses it,
+// gamma. Sampled on a grid and factored by a singular value decomposition; then a lit span needs differences of prefix
+// sums only.
+#pragma once
+
+#include "SharedBlocks.h"
+#include "optics/Slices.h"
+
+#include <Eigen/Core>
+#include <optional>
+
+namespace tyndall::optics {
+
+inline constexpr int kLowRankGrid = 64; ///< samples of beta and of gamma
+
+/// rays * lights approximates a matrix, whose rows and columns count by the squares of their weights.
+struct LowRankFactors {
+  Eigen::MatrixXd rays;   ///< rows x terms
+  Eigen::MatrixXd lights; ///< terms x columns
+};
+
+/// The best factors of that many terms (Eckart-Young). None if an element is not finite; weights must be > 0.
+std::optional<LowRankFactors> factorise(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& rowWeights,
+                                        const Eigen::VectorXd& columnWeights, int terms);
+
+struct LowRankTable {
+  int sets = 0;                  ///< of light factors: one, or with a spot's cone one a slice
+  glm::vec4 ray{0}, light{0};    ///< the block's lowRankRay and lowRankLight
+  std::vector<glm::vec4> rays;   ///< grid x terms: rgb
+  std::vector<glm::vec4> lights; ///< sets x (2 terms grid): prefix sums of a term, then the term itself
+};
+
+/// By settings.lowRankTerms. None where the airlight depends on more than two coordinates (an orthographic camera
+/// before a lamp, a medium with a boundary) or no ray has an angle to the light.
+std::optional<LowRankTable> makeLowRank(const Frame& frame, const Light& light, const SliceTable& slices);
+
+} // namespace tyndall::optics

@@ -1,0 +1,74 @@
+// Low rank: the airlight of a lit span as a sum of few products, a factor of the camera ray times a difference of prefix
+// sums over the light rays that cross it (Chen 2011, 3.2 and 3.4; effect/src/optics/LowRank.cpp). Takes the place of
+// airlight() in what is included after it.
+
+uniform sampler2D lowRankRays;   // grid x terms: the ray's factors
+uniform sampler2D lowRankLights; // sets x (2 terms grid): prefix sums, then the light's factors
+
+const int kLowRankGrid = 64, kMostTerms = 8;
+
+// Of the camera ray that is integrated.
+struct LowRankRay {
+  bool valid;      // else it is too near to the direction of a light for the grid
+  int set;
+  float scale;     // directional: x = s scale; lamp: half a turn less beta
+  Spectrum factor;
+  Spectrum terms[kMostTerms];
+} lowRank;
+
+void startLowRank(Ray ray, int slice) {
+  Airlight light = airlightOf(ray);
+#if LIGHT_KIND == 0
+  lowRank.scale = length(cross(lightDirection.xyz, ray.direction));
+  float place = (log(max(lowRank.scale, 1e-30)) - lowRankRay.x) * lowRankRay.y;
+  lowRank.valid = place >= -0.01;
+  lowRank.factor = light.phase / max(lowRank.scale, 1e-30);
+#else
+  float beta = atan(sqrt(light.height2), light.foot), place = (beta - lowRankRay.x) * lowRankRay.y;
+  lowRank.scale = 1.5707963267948966 - beta;
+  lowRank.valid = true;
+  lowRank.factor = Spectrum(inversesqrt(light.height2));
+#endif
+  lowRank.set = lowRankLight.y != 0.0 ? slice : 0;
+  int low = clamp(int(place), 0, kLowRankGrid - 2);
+  float f = clamp(place - float(low), 0.0, 1.0);
+  for (int i = 0; i < kMostTerms; ++i)
+    if (i < int(lowRankRay.z))
+      lowRank.terms[i] = mix(SPECTRUM(texelFetch(lowRankRays, ivec2(low, i), 0)), SPECTRUM(texelFetch(lowRankRays, ivec2(low + 1, i), 0)), f);
+}
+
+// Where light crosses the ray at s: the cell of the grid, the place in it from 0 to 1, the cell's length.
+vec3 lightPlace(Airlight light, float s) {
+  float last = float(kLowRankGrid - 1);
+#if LIGHT_KIND == 0
+  float x = min(s * lowRank.scale, lowRankLight.x), cell = clamp(floor(last * pow(x / lowRankLight.x, 1.0 / 3.0)), 0.0, last - 1.0);
+  float unit = lowRankLight.x / (last * last * last), begin = cell * cell * cell * unit;
+  float len = (3.0 * cell * (cell + 1.0) + 1.0) * unit;
+  return vec3(cell, clamp((x - begin) / len, 0.0, 1.0), len);
+#else
+  float gamma = atan((s - light.foot) * inversesqrt(light.height2)) + lowRank.scale, at = clamp((gamma - lowRankLight.z) / lowRankLight.x * last, 0.0, last);
+  float cell = min(floor(at), last - 1.0);
+  return vec3(cell, at - cell, lowRankLight.x / last);
+#endif
+}
+
+// A term's prefix sum: the cubic through the sums and slopes at the cell's ends.
+Spectrum prefixSum(int term, vec3 place) {
+  ivec2 at = ivec2(lowRank.set, 2 * term * kLowRankGrid + int(place.x)), slopes = at + ivec2(0, kLowRankGrid);
+  Spectrum c0 = SPECTRUM(texelFetch(lowRankLights, at, 0)), c1 = SPECTRUM(texelFetch(lowRankLights, at + ivec2(0, 1), 0));
+  Spectrum g0 = place.z * SPECTRUM(texelFetch(lowRankLights, slopes, 0)), g1 = place.z * SPECTRUM(texelFetch(lowRankLights, slopes + ivec2(0, 1), 0));
+  float q = place.y;
+  return c0 + q * (g0 + q * (3.0 * (c1 - c0) - 2.0 * g0 - g1 + q * (2.0 * (c0 - c1) + g0 + g1)));
+}
+
+Spectrum lowRankAirlight(Airlight light, float s0, float s1) {
+  if (!lowRank.valid) return airlight(light, s0, s1);
+  if (!(s1 > s0)) return Spectrum(0.0);
+  vec3 from = lightPlace(light, s0), to = lightPlace(light, s1);
+  Spectrum sum = Spectrum(0.0);
+  for (int i = 0; i < kMostTerms; ++i)
+    if (i < int(lowRankRay.z)) sum += lowRank.terms[i] * (prefixSum(i, to) - prefixSum(i, from));
+  return lowRank.factor * sum;
+}
+
+#define airlight lowRankAirlight

@@ -1,0 +1,87 @@
+// Technique lowrank: spans by differences of prefix sums (Chen 2011, 3.2) against the closed forms of technique tree.
+#include "ShaftRig.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tyndall;
+
+namespace {
+
+constexpr auto kEverywhere = [](int, int) { return true; };
+
+Light lamp(LightKind kind, const Vec3& position, const Vec3& direction) {
+  Light light = tests::shaftLight(kind);
+  light.position = position;
+  light.direction = direction;
+  return light;
+}
+
+Light sun() { return tests::shaftLight(LightKind::Directional); }
+Light spot() { return lamp(LightKind::Spot, {-0.6, 9.4, -7}, {0.1, -1, -0.3}); }
+Light point() { return lamp(LightKind::Point, {-0.6, 8.5, -3.5}, {0, -1, 0}); }
+
+double errorOf(tests::ShaftRig& rig, const reference::Image& truth, int terms) {
+  rig.scene.frame.settings.lowRankTerms = terms;
+  return tests::errorWhere(rig.picture(Technique::LowRank), truth, kEverywhere);
+}
+
+// An isotropic medium, grey or not.
+void setMedium(tests::ShaftRig& rig, const Rgb& scattering) {
+  rig.scene.frame.medium = {};
+  rig.scene.frame.medium.constituents = {{scattering}};
+  rig.scene.frame.medium.farDistance = 60;
+}
+
+} // namespace
+
+TEST_CASE("low rank comes near the closed form with its terms, for every kind of light") {
+  struct Case {
+    Light light;
+    double least; // error with eight terms; a spot's cone is that of the pixel's slice
+  };
+  for (const Case& item : {Case{sun(), 0.002}, Case{point(), 0.005}, Case{spot(), 0.03}})
+    for (const bool grey : {true, false})
+      for (const bool glass : {false, true}) {
+        CAPTURE(static_cast<int>(item.light.kind), grey, glass);
+        tests::ShaftRig rig(72, 48);
+        setMedium(rig, grey ? Rgb{0.03F, 0.03F, 0.03F} : Rgb{0.01F, 0.03F, 0.06F});
+        rig.addLight(item.light, 128, glass);
+        const reference::Image truth = rig.picture(Technique::Tree);
+        const double one = errorOf(rig, truth, 1), four = errorOf(rig, truth, 4), eight = errorOf(rig, truth, 8);
+        CAPTURE(one, four, eight);
+        CHECK(one > 0); // an approximation
+        CHECK(four <= 0.03);
+        CHECK(four <= one);
+        CHECK(eight <= item.least);
+      }
+}
+
+TEST_CASE("a peaked phase function of a directional light is outside the approximation") {
+  tests::ShaftRig rig(72, 48);
+  setMedium(rig, {0.03F, 0.03F, 0.03F});
+  rig.scene.frame.medium.constituents[0].phase = Phase::HenyeyGreenstein;
+  rig.scene.frame.medium.constituents[0].g = 0.9F;
+  rig.addLight(sun());
+  CHECK(errorOf(rig, rig.picture(Technique::Tree), 4) <= 0.02);
+}
+
+TEST_CASE("low rank is tree where the airlight has more than two coordinates") {
+  const auto checkSame = [](tests::ShaftRig& rig) {
+    CHECK(tests::difference(rig.picture(Technique::LowRank), rig.picture(Technique::Tree)) == 0);
+  };
+  tests::ShaftRig bounded(48, 32);
+  Light light = sun();
+  light.boundary = {true, {0, 9, 0}, {0, 1, 0}};
+  bounded.addLight(light);
+  checkSame(bounded);
+}
+
+TEST_CASE("low rank of a light that is not dimmed is finite and near") {
+  tests::ShaftRig rig(48, 32);
+  setMedium(rig, {1e-12F, 1e-12F, 1e-12F});
+  rig.addLight(sun());
+  CHECK(errorOf(rig, rig.picture(Technique::Tree), 4) <= 1e-3);
+  setMedium(rig, {1e4F, 1e4F, 1e4F}); // nothing passes
+  const reference::Image dense = rig.picture(Technique::LowRank);
+  CHECK(tests::errorWhere(dense, rig.picture(Technique::Tree), kEverywhere) < 1);
+}

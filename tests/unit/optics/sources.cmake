@@ -1,0 +1,7 @@
+set(TYNDALL_UNIT_OPTICS_SOURCES ${CMAKE_CURRENT_LIST_DIR}/LowRankTest.cpp)
+# Eigen's and the library's own headers, for these files only.
+find_package(Eigen3 REQUIRED)
+get_target_property(eigen_includes Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+set_source_files_properties(${TYNDALL_UNIT_OPTICS_SOURCES} PROPERTIES
+  INCLUDE_DIRECTORIES "${PROJECT_SOURCE_DIR}/effect/src;${PROJECT_SOURCE_DIR}/glsl"
+  COMPILE_OPTIONS "-isystem${eigen_includes}")
