@@ -198,6 +198,8 @@ Status checkSettings(const Settings& settings) {
     return invalid("settings.averageThreshold", text(settings.averageThreshold), "must be 0 to 1");
   if (!(settings.spreadThreshold > 0))
     return invalid("settings.spreadThreshold", text(settings.spreadThreshold), "must be > 0");
+  if (settings.sampleBudget != 0 && settings.sampleBudget < 4096)
+    return invalid("settings.sampleBudget", std::to_string(settings.sampleBudget), "must be 0 or at least 4096");
   if (settings.lowRankTerms < 1 || settings.lowRankTerms > 8)
     return invalid("settings.lowRankTerms", std::to_string(settings.lowRankTerms), "must be 1 to 8");
   return {};

@@ -1,5 +1,6 @@
 #include "CheckFrame.h"
 #include "PassRecorder.h"
+#include "SampleBudget.h"
 #include "Targets.h"
 #include "gl/Program.h"
 #include "gl/StateGuard.h"
@@ -324,19 +325,27 @@ passes::exact::Variant variantOf(const Frame& frame, const Light* light, bool di
 } // namespace
 
 Status Effect::State::drawLights(const Frame& frame, const FrameTextures& textures, const Destination& destination) {
+  std::vector<std::string> reasons; // to skip a light
+  std::vector<bool> drawn;
+  for (const Light& light : frame.lights) {
+    reasons.push_back(reasonToSkip(frame, light, destination.direct() || destination.inscatter != 0));
+    drawn.push_back(reasons.back().empty());
+  }
+  const std::vector<Settings> settings = dealSamples(frame, drawn);
+  Frame lit = frame; // for one light at a time
   bool first = true;
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     const Light& light = frame.lights[i];
     const std::string name = (usesSlices(frame) ? "light " : "exact light ") + std::to_string(i);
-    const std::string reason = reasonToSkip(frame, light, destination.direct() || destination.inscatter != 0);
-    if (!reason.empty()) {
-      recorder.skip(name, reason);
+    if (!drawn[i]) {
+      recorder.skip(name, reasons[i]);
       continue;
     }
+    lit.settings = settings[i];
     const FrameTextures::Shadow& map = textures.shadows[i];
     const blocks::LightBlock block = optics::lightBlock(light, frame.camera, map.width, map.height);
     upload(1, &block, sizeof block);
-    if (Status s = drawLight(frame, &light, map, destination, first, name); !s) return s;
+    if (Status s = drawLight(lit, &light, map, destination, first, name); !s) return s;
     first = false;
   }
   return first ? drawLight(frame, nullptr, {}, destination, true, "transmittance") : Status{};

@@ -42,7 +42,7 @@ Exit status
 struct Typed {
   std::string scene, camera, eye, target, fov, sun, size, supersample, profile, technique, view, slices, samples,
       rowStep, tree, breakThreshold, bendThreshold, leastWeight, averageThreshold, spreadThreshold, lowRankTerms,
-      cascadeFade, filter, medium, shadowSize, cascades, frames, repeat, context, stats, exposure;
+      sampleBudget, cascadeFade, filter, medium, shadowSize, cascades, frames, repeat, context, stats, exposure;
   std::vector<std::string> out;
   bool reversedDepth = false;
 };
@@ -150,6 +150,8 @@ void readQuality(const Typed& typed, Options& options) {
   options.averageThreshold = parseThreshold("--average-threshold", typed.averageThreshold, true, 1);
   options.spreadThreshold = parseThreshold("--spread-threshold", typed.spreadThreshold, false, 1e6);
   if (!typed.lowRankTerms.empty()) options.lowRankTerms = parseInt("--low-rank-terms", typed.lowRankTerms, 1, 8);
+  if (!typed.sampleBudget.empty())
+    options.sampleBudget = parseInt("--sample-budget", typed.sampleBudget, 4096, 1 << 30);
   if (!typed.tree.empty() && typed.tree != "on" && typed.tree != "off")
     failUsage("--tree", typed.tree, "must be on or off");
   options.minMaxTree = typed.tree != "off";
@@ -221,6 +223,8 @@ void addOptions(CLI::App& app, Typed& typed) {
   app.add_option("--spread-threshold", typed.spreadThreshold,
                  "spread of the samples around a pixel over which it is marched by itself")
       ->type_name("X");
+  app.add_option("--sample-budget", typed.sampleBudget, "slices x samples of all lights together, from 4096 on")
+      ->type_name("N");
   app.add_option("--low-rank-terms", typed.lowRankTerms, "terms of technique lowrank, 1 to 8 (default 4)")
       ->type_name("N");
   app.add_option("--filter", typed.filter, "of the shadow map: nearest (default) or bilinear")->type_name("NAME");

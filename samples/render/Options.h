@@ -44,7 +44,7 @@ struct Options {
   bool minMaxTree = true;
   std::optional<float> breakThreshold, bendThreshold, leastWeight, averageThreshold,
       spreadThreshold; ///< none: by the profile
-  std::optional<int> lowRankTerms;
+  std::optional<int> lowRankTerms, sampleBudget;
   tyndall::View view = tyndall::View::Composite;
   tyndall::ShadowFilter shadowFilter = tyndall::ShadowFilter::Nearest;
   std::optional<std::filesystem::path> medium;

@@ -51,6 +51,7 @@ tyndall::Settings settingsOf(const Options& options) {
   settings.bendThreshold = options.bendThreshold.value_or(settings.bendThreshold);
   settings.leastWeight = options.leastWeight.value_or(settings.leastWeight);
   settings.averageThreshold = options.averageThreshold.value_or(settings.averageThreshold);
+  settings.sampleBudget = options.sampleBudget.value_or(settings.sampleBudget);
   settings.lowRankTerms = options.lowRankTerms.value_or(settings.lowRankTerms);
   settings.spreadThreshold = options.spreadThreshold.value_or(settings.spreadThreshold);
   return settings;

@@ -184,7 +184,7 @@ enum class View {
   NodeVisits, ///< Tree, Epipolar, LowRank: nodes and groups of texels that a ray through the pixel's slice looks at, in
               ///< all views. Black 0 over blue, red, yellow to white 1023, by log2(1 + n); ticks of the bar at each
               ///< factor of 4. Epipolar marches only some pixels: MarchSamples shows where
-  Inscatter,     ///< radiance that all lights add
+  Inscatter,  ///< radiance that all lights add
   Transmittance, ///< T(d)
   Difference,    ///< the technique's inscatter less exact's, which is rendered too: mean over R, G, B, as a part of the
                  ///< mean of exact over the image. Grey 0, red up to +10 %, blue down to -10 %; ticks every 5 %
@@ -216,6 +216,10 @@ struct Settings {
   /// phase function is peaked. Where the airlight has more than two coordinates (an orthographic camera before a lamp,
   /// a light with a boundary) LowRank is Tree.
   int lowRankTerms = 4;
+  /// Epipolar: slices x samples of all lights together, dealt out by how much of the image a light covers and how
+  /// bright it is; 0, or from 4096 on. A light gets at least 4096 and at most its own slices x samples, which 0 gives
+  /// to every light.
+  int sampleBudget = 0;
 };
 
 /// The settings of a profile. Reference is Technique::Exact.

@@ -115,6 +115,51 @@ std::vector<dvec3> candidates(const ViewVolume& view, const ReachedVolume& light
 
 } // namespace
 
+namespace {
+
+// True if a ray from the camera's origin meets the volume: tried at points that are even in the angle at the lamp.
+bool meets(const ReachedVolume& light, const dvec3& begin, const dvec3& direction) {
+  constexpr int kPoints = 32;
+  const double foot = glm::dot(light.position - begin, direction);
+  const double height = glm::length(light.position - begin - foot * direction);
+  if (height > light.range) return false;
+  for (int i = 0; i < kPoints; ++i) {
+    const double angle = glm::pi<double>() * ((i + 0.5) / kPoints - 0.5),
+                 s = foot + std::max(height, 1e-12) * std::tan(angle);
+    const dvec3 fromLight = begin + s * direction - light.position;
+    const double distance = glm::length(fromLight);
+    if (s > 0 && distance <= light.range && glm::dot(fromLight, light.axis) >= distance * std::cos(light.angle))
+      return true;
+  }
+  return false;
+}
+
+} // namespace
+
+LightShare shareOf(const Light& light, const Camera& camera, const Medium& medium) {
+  const double colour = std::max({light.colour[0], light.colour[1], light.colour[2]});
+  if (light.kind == LightKind::Directional) {
+    const dvec3 extinction = extinctionOf(medium);
+    const double sigma = std::min({extinction.x, extinction.y, extinction.z});
+    return {1, colour * std::min({medium.farDistance, sigma > 0 ? 1 / sigma : kInfinity, 1e15})};
+  }
+  constexpr int kColumns = 16, kRows = 9;
+  const ViewVolume view(camera);
+  const ReachedVolume reached(light, camera);
+  int met = 0;
+  for (int y = 0; y < kRows; ++y)
+    for (int x = 0; x < kColumns; ++x) {
+      const double u = (x + 0.5) / kColumns, v = (y + 0.5) / kRows;
+      const auto at = [&](const std::array<dvec3, 4>& corners) {
+        return glm::mix(glm::mix(corners[0], corners[1], u), glm::mix(corners[3], corners[2], u), v);
+      };
+      met += meets(reached, at(view.begin), glm::normalize(at(view.direction))) ? 1 : 0;
+    }
+  const double distance = std::max(glm::length(reached.position), 1e-12);
+  return {static_cast<double>(met) / (kColumns * kRows),
+          colour * std::min(2 * reached.angle, glm::pi<double>()) / distance};
+}
+
 bool isOutOfView(const Light& light, const Camera& camera) {
   if (light.kind == LightKind::Directional) return false;
   const ReachedVolume reached(light, camera);

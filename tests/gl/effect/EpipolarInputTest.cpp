@@ -80,6 +80,11 @@ const std::vector<Knob> kKnobs = {
      {kNan, 0, -0.1, -kInf},
      {1e-38, 0.05, kInf},
      "must be > 0"},
+    {"sampleBudget",
+     [](Settings& s, double v) { s.sampleBudget = static_cast<int>(v); },
+     {-1, 1, 4095},
+     {0, 4096, 1e9},
+     "must be 0 or at least 4096"},
     {"lowRankTerms",
      [](Settings& s, double v) { s.lowRankTerms = static_cast<int>(v); },
      {0, 9, -1},
@@ -259,4 +264,18 @@ TEST_CASE("shadow views that are thin, narrow, elsewhere or edge-on") {
       rig.changed();
       checkAgainstExact(rig);
     }
+}
+
+TEST_CASE("a sample budget marches fewer rays, and two lights under it come near those without") {
+  tests::ShaftRig rig(96, 64);
+  rig.addLight(tests::shaftLight(LightKind::Directional), 64);
+  rig.addLight(tests::shaftLight(LightKind::Point), 64);
+  const reference::Image full = rig.picture(Technique::Epipolar);
+  const std::uint64_t marched = tests::testEffect().statistics().marchedSamples;
+  rig.scene.frame.settings.sampleBudget = 2 * 128 * 64;
+  const reference::Image dealt = rig.picture(Technique::Epipolar);
+  CHECK(2 * tests::testEffect().statistics().marchedSamples < marched + 96 * 64);
+  const double error = tests::errorWhere(dealt, full, [](int, int) { return true; });
+  CHECK(error > 0);
+  CHECK(error < 0.1);
 }
