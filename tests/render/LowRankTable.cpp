@@ -1,0 +1,66 @@
+// Prints how far technique lowrank is from tree, which integrates the same spans in closed form, by the number of its
+// terms: every sample scene with an isotropic medium of its own density. tyndall-low-rank [SCENE…]
+#include "reference/Metrics.h"
+#include "render/SceneAnswers.h"
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+constexpr int kTerms = 8;
+
+/// A file with the scene's medium, all scattering isotropic.
+std::filesystem::path writeIsotropic(const tyndall::Medium& medium) {
+  tyndall::Rgb sum{};
+  for (const tyndall::Constituent& constituent : medium.constituents)
+    for (std::size_t c = 0; c < 3; ++c)
+      sum[c] += constituent.scattering[c];
+  const nlohmann::json json = {{"constituents", {{{"scattering", sum}, {"phase", "isotropic"}}}},
+                               {"absorption", medium.absorption}};
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / "tyndall-low-rank-medium.json";
+  std::ofstream(path) << json;
+  return path;
+}
+
+void printRow(const std::string& scene) {
+  render::Options options = tests::sampleOptions(scene, 320, 180, 1024);
+  options.medium = writeIsotropic(tests::renderScene(options).view.medium);
+  options.profile = "high";
+  options.technique = "tree";
+  const reference::Image truth = tests::renderScene(options).exact.inscatter;
+  std::printf("| %s |", scene.c_str());
+  options.technique = "lowrank";
+  for (int terms = 1; terms <= kTerms; ++terms) {
+    options.lowRankTerms = terms;
+    const reference::ErrorMetrics error = reference::compare(tests::renderScene(options).exact.inscatter, truth);
+    std::printf(" %.2g %% |", 100 * error.rRmse);
+    std::fflush(stdout);
+  }
+  std::printf("\n");
+  std::filesystem::remove(*options.medium);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  try {
+    std::printf("| rRMSE against tree |");
+    for (int terms = 1; terms <= kTerms; ++terms)
+      std::printf(" N = %d |", terms);
+    std::printf("\n|---|");
+    for (int terms = 1; terms <= kTerms; ++terms)
+      std::printf("---|");
+    std::printf("\n");
+    const std::vector<std::string> named(argv + 1, argv + argc);
+    for (const std::string& scene : named.empty() ? tests::sampleScenes() : named)
+      printRow(scene);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "tyndall-low-rank: %s\n", error.what());
+    return 1;
+  }
+}
