@@ -80,7 +80,7 @@ Light rowLight(Airlight light, ViewSegment segment, int slice) {
         else advanceRow(line, walk, walk.index + 1, uTexel);
       }
     }
-    sum += weightedLight(light, distanceAt(segment, span.x), distanceAt(segment, span.y), weight.mean, weight.moment);
+    sum += spanLight(light, segment, span.x, span.y, weight.mean, weight.moment);
   }
   return sum;
 }

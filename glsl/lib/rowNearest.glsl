@@ -53,7 +53,7 @@ Light rowLight(Airlight light, ViewSegment segment, int slice) {
         from = at;
       }
     }
-    sum += weightedLight(light, distanceAt(segment, span.x), distanceAt(segment, span.y), weight.mean, weight.moment);
+    sum += spanLight(light, segment, span.x, span.y, weight.mean, weight.moment);
   }
   return sum;
 }

@@ -16,12 +16,17 @@
 
 #include "lib/shadowMap.glsl"
 
+#define FADES (SHADOW_VIEWS == 2 && LIGHT_KIND == 0)
+
 // The part of a ray that one view owns: from s0 to s1, in texels and depth from p0 to p1.
 struct ViewSegment {
   int view;
   float s0, s1;
   float w0, w1; // homogeneous weights at the ends, > 0
   vec3 p0, p1;
+#if FADES
+  vec2 share; // of the light at s0 and s1 that the view decides on; linear between
+#endif
 };
 
 // Keeps the part of [s0, s1] where c + s d >= 0.
@@ -50,16 +55,64 @@ vec2 viewInterval(int view, Ray ray, float s0, float s1, bool beforeNear) {
   return vec2(s0, s1);
 }
 
-ViewSegment viewSegment(int view, Ray ray, float s0, float s1) {
+ViewSegment viewSegment(int view, Ray ray, float s0, float s1, vec2 share) {
   vec4 a = texelFromCamera[view] * vec4(ray.origin, 1.0), b = texelFromCamera[view] * vec4(ray.direction, 0.0);
   vec4 q0 = a + s0 * b, q1 = a + s1 * b;
+#if FADES
+  return ViewSegment(view, s0, s1, q0.w, q1.w, q0.xyz / q0.w, q1.xyz / q1.w, share);
+#else
   return ViewSegment(view, s0, s1, q0.w, q1.w, q0.xyz / q0.w, q1.xyz / q1.w);
+#endif
 }
 
 // Distance along the camera ray at the line parameter u: u = w1 f / (w0 (1 - f) + w1 f) solved for f = (s - s0)/(s1 - s0).
 float distanceAt(ViewSegment segment, float u) {
   float f = u * segment.w0 / (segment.w1 + u * (segment.w0 - segment.w1));
   return u >= 1.0 ? segment.s1 : segment.s0 + (segment.s1 - segment.s0) * f;
+}
+
+// coth(x) - 1 / x: where on [-1, 1] an exponential that falls by exp(-2 x) has its mean.
+float langevin(float x) {
+  if (x < 0.5) return x * (1.0 / 3.0 + x * x * (-1.0 / 45.0 + x * x * (2.0 / 945.0)));
+  float e = exp(-2.0 * x);
+  return (1.0 + e) / (1.0 - e) - 1.0 / x;
+}
+vec3 langevin(vec3 x) { return vec3(langevin(x.x), langevin(x.y), langevin(x.z)); }
+
+#if LIGHT_KIND == 0
+// Light of a span where the visibility has a mean and a first moment (from -1 to 1 over the span), as that of a line. With
+// fades spans may be long; else the airlight falls along a line, too.
+Light weightedLight(Airlight light, float s0, float s1, Visibility mean, Visibility moment) {
+  bool attenuated = light.path + 0.5 * (s0 + s1) * light.pathSlope > 0.0;
+  Spectrum fall = SPECTRUM(extinction) * ((attenuated ? 1.0 + light.pathSlope : 1.0) * (s1 - s0));
+#if FADES
+  Spectrum towards = 3.0 * langevin(0.5 * abs(fall)) * sign(fall);
+#else
+  Spectrum towards = 0.5 * fall;
+#endif
+  return Light(airlight(light, s0, s1)) * (mean - moment * towards);
+}
+#else
+Light weightedLight(Airlight light, float s0, float s1, Visibility mean, Visibility moment) {
+  Light sum = Light(airlight(light, s0, s1));
+  if (moment == Visibility(0.0)) return mean * sum;
+  Light front = Light(airlight(light, s0, 0.5 * (s0 + s1)));
+  return mean * sum + 2.0 * moment * (sum - 2.0 * front);
+}
+#endif
+
+// The same from line parameter u0 to u1 of a segment, times the view's share there.
+Light spanLight(Airlight light, ViewSegment segment, float u0, float u1, Visibility mean, Visibility moment) {
+  float s0 = distanceAt(segment, u0), s1 = distanceAt(segment, u1);
+#if FADES
+  // Visibility and share as lines a + b t on [-1, 1]; the mean of t squared is a third.
+  float scale = (segment.share.y - segment.share.x) / max(segment.s1 - segment.s0, 1e-30);
+  float middle = segment.share.x + scale * (0.5 * (s0 + s1) - segment.s0), slope = 0.5 * scale * (s1 - s0);
+  Visibility shared = mean * middle + moment * slope;
+  moment = moment * middle + mean * (slope / 3.0);
+  mean = shared;
+#endif
+  return weightedLight(light, s0, s1, mean, moment);
 }
 
 // A line through the cells of a view's map, from u = 0 to 1. A cell is a texel (nearest) or the square between four texel
@@ -317,7 +370,11 @@ Light segmentLight(Airlight light, ViewSegment segment) {
         stepCell(line, walk, uEnd, depth);
       }
     }
+#if FADES
+    sum += spanLight(light, segment, begin, end, weight, Visibility(0.0));
+#else
     sum += Light(weight) * Light(airlight(light, distanceAt(segment, begin), distanceAt(segment, end)));
+#endif
   }
   return sum;
 }

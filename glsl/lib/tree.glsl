@@ -98,23 +98,6 @@ bool isAverage(RowLine line, RowWalk walk, int level, int next, float end, vec4 
   return inside && level <= line.evenLevel && walk.index >= line.firstWhole && next <= line.last + 1;
 }
 
-#if LIGHT_KIND == 0
-// Light of a span where the visibility has a mean and a first moment (from -1 to 1 over the span): over a short one the airlight
-// falls along a line.
-Light weightedLight(Airlight light, float s0, float s1, Visibility mean, Visibility moment) {
-  bool attenuated = light.path + 0.5 * (s0 + s1) * light.pathSlope > 0.0;
-  Spectrum fall = SPECTRUM(extinction) * ((attenuated ? 1.0 + light.pathSlope : 1.0) * (s1 - s0));
-  return Light(airlight(light, s0, s1)) * (mean - 0.5 * moment * fall);
-}
-#else
-Light weightedLight(Airlight light, float s0, float s1, Visibility mean, Visibility moment) {
-  Light sum = Light(airlight(light, s0, s1));
-  if (moment == Visibility(0.0)) return mean * sum;
-  Light front = Light(airlight(light, s0, 0.5 * (s0 + s1)));
-  return mean * sum + 2.0 * moment * (sum - 2.0 * front);
-}
-#endif
-
 Average averageAt(int node, int row) {
 #if GLASS
   return averageOf(texelFetch(rowMeans, ivec2(node, row), 0), texelFetch(rowMoments, ivec2(node, row), 0));

@@ -6,12 +6,13 @@ Light ownedLight(Airlight light, ViewSegment segment, int slice);
 #endif
 
 #ifndef FADE_STEPS
-#define FADE_STEPS 4
+#define FADE_STEPS 1
 #endif
-const int kFadeSteps = SHADOW_VIEWS == 2 ? FADE_STEPS : 1; // pieces of a fade, each with one weight
-const int kMostPieces = 4 * kFadeSteps * MAX_SHADOW_VIEWS;
+const int kFadeSteps = SHADOW_VIEWS == 2 ? FADE_STEPS : 1; // pieces of a fade, over each of which the weight is a line
+const int kCornerSteps = 4 * kFadeSteps; // where the weight comes and goes without having been 1
+const int kMostPieces = (4 + kCornerSteps) * kFadeSteps * MAX_SHADOW_VIEWS;
 
-#if SHADOW_VIEWS == 2
+#if FADES
 
 // The part of [s0, s1] where a view has all the weight, away from its sides by its fade and, unless it is open there, from
 // its far plane. Empty if y <= x.
@@ -37,10 +38,10 @@ float viewWeight(int view, Ray ray, float s) {
 }
 
 // Where a view that owns [s, end] fades, the next view that reaches there has the rest of the weight: returns that one, or
-// -1, and cuts `end` so that one weight stands for the piece.
-int fadeInto(int owner, Ray ray, vec2 owned[2 * MAX_SHADOW_VIEWS], float s0, float s1, float s, inout float end, out float weight) {
+// -1, and cuts `end` so that the owner's weights at the ends of the piece stand for all of it.
+int fadeInto(int owner, Ray ray, vec2 owned[2 * MAX_SHADOW_VIEWS], float s0, float s1, float s, inout float end, out vec2 weight) {
   int next = -1;
-  weight = 1.0;
+  weight = vec2(1.0);
   for (int i = owner + 1; i < viewCounts.x && next < 0; ++i) {
     if (owned[i].y <= s || owned[i].y <= owned[i].x) continue;
     if (owned[i].x <= s) next = i;
@@ -54,8 +55,8 @@ int fadeInto(int owner, Ray ray, vec2 owned[2 * MAX_SHADOW_VIEWS], float s0, flo
     return -1;
   }
   float first = behind ? whole.y : owned[owner].x, last = before ? whole.x : owned[owner].y;
-  end = min(min(end, last), s + max((last - first) / float(kFadeSteps), 1e-6 * abs(s)));
-  weight = viewWeight(owner, ray, 0.5 * (s + end));
+  end = min(min(end, last), s + max((last - first) / float(hasWhole ? kFadeSteps : kCornerSteps), 1e-6 * abs(s)));
+  weight = vec2(viewWeight(owner, ray, s), viewWeight(owner, ray, end));
   return next;
 }
 
@@ -85,7 +86,8 @@ Light shadowedLight(Airlight light, Ray ray, float s0, float s1, ivec2 views, bo
   for (int guard = 0; guard < kMostPieces && s < s1; ++guard) {
     // The next piece that this draw walks; what comes before it is cheap.
     int view = -1;
-    float share = 0.0, from = s, to = s;
+    vec2 share = vec2(0.0);
+    float from = s, to = s;
     for (int i = 0; i < kMostPieces && view < 0 && s < s1; ++i) {
       int owner = -1;
       float end = s1;
@@ -100,20 +102,20 @@ Light shadowedLight(Airlight light, Ray ray, float s0, float s1, ivec2 views, bo
       }
       bool inView = owner >= 0 && owner < kViews;
       int next = -1;
-      float weight = 1.0;
-#if SHADOW_VIEWS == 2
+      vec2 weight = vec2(1.0);
+#if FADES
       if (inView && fade.x > 0.0) next = fadeInto(owner, ray, owned, s0, s1, s, end, weight);
 #endif
       if (outside && !inView && (owner >= 0 || litOutside)) sum += Light(airlight(light, s, end));
       int candidate = turn == 0 ? owner : next;
       share = turn == 0 ? weight : 1.0 - weight;
-      if (inView && share > 0.0 && candidate >= views.x && candidate < views.x + views.y) view = candidate;
+      if (inView && share != vec2(0.0) && candidate >= views.x && candidate < views.x + views.y) view = candidate;
       from = s;
       to = end;
       turn = turn == 0 && next >= 0 ? 1 : 0;
       s = turn == 1 ? s : end;
     }
-    if (view >= 0) sum += share * ownedLight(light, viewSegment(view, ray, from, to), slice);
+    if (view >= 0) sum += ownedLight(light, viewSegment(view, ray, from, to, share), slice);
   }
   return sum;
 #endif

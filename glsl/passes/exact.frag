@@ -2,7 +2,7 @@
 // Reads the scene depth (image size), the light's shadow map and glass map. Writes inscatter (RGB, added up over the
 // lights) and, in the frame's first pass, transmittance: as the two sources of dual-source blending (COMPOSITE 1) or into
 // two targets (COMPOSITE 0). LIGHT_KIND 3: no light, transmittance only. Physics: DESIGN 1; closed form of Yusov 2013.
-#define FADE_STEPS 64
+#define FADE_STEPS 16
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
