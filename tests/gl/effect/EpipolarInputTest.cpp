@@ -178,6 +178,32 @@ TEST_CASE("pictures of one pixel, one column and one row") {
     }
 }
 
+TEST_CASE("shadow views whose rows do not fit into one texture take several draws") {
+  for (const float spreadThreshold : {kInf, 1e-3F})
+    for (const Technique technique : {Technique::Tree, Technique::Epipolar}) {
+      CAPTURE(spreadThreshold, static_cast<int>(technique));
+      tests::ShaftRig rig(8192, 1); // a slice for each pixel of the border
+      Light light = tests::shaftLight(LightKind::Directional);
+      light.shadow.views = tests::shadowViews(light, 4);
+      light.cascadeFade = 0.1;
+      rig.addLight(light, 64);
+      rig.scene.frame.settings.spreadThreshold = spreadThreshold;
+      const auto picture = [&](int slices, int& draws) {
+        rig.scene.frame.settings.slices = slices;
+        reference::Image image = rig.picture(technique);
+        draws = 0;
+        for (const PassStatistics& pass : tests::testEffect().statistics().passes)
+          draws += pass.name == "light 0 rows" ? 1 : 0;
+        return image;
+      };
+      int together = 0, apart = 0;
+      const reference::Image one = picture(2048, together), several = picture(8192, apart);
+      CHECK(together == 1);
+      CHECK(apart >= 2);
+      CHECK(tests::errorWhere(several, one, [](int, int) { return true; }) <= 0.02);
+    }
+}
+
 TEST_CASE("a depth buffer that is all sky, all NaN, all at the eye or without meaning") {
   for (const LightKind kind : kKinds)
     for (const float depth : {0.0F, kNan, 1.0F, kInf, -kInf, -1.0F, 2.0F}) { // 0 is the far value
