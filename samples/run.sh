@@ -28,7 +28,7 @@ mkdir -p out/gallery
 picture nave-glass
 picture nave
 picture forest
-picture terrain
+picture terrain --cascades 4
 picture cage --shadow-size 2048
 picture stage
 picture concert --shadow-size 2048

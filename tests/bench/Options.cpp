@@ -135,7 +135,7 @@ void applyQuick(Typed& typed) {
 }
 
 void applyAll(Typed& typed) {
-  typed.scenes = "all";
+  typed.scenes = "nave,nave-glass,forest,terrain,cage,stage,projector"; // concert is stage, as the series of lights is
   typed.techniques = "all";
   typed.references = "map,scene";
   typed.scaling = true;
