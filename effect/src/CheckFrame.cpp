@@ -167,7 +167,7 @@ Status checkView(const Frame& frame) {
   if (view < View::Slices || view > View::NodeVisits) return {};
   if (technique == Technique::Exact || frame.depth.multisampled)
     return invalid("settings.view", name,
-                   "needs slices: technique Tree or Epipolar, and a depth that is not multisampled");
+                   "needs slices: technique Tree, LowRank or Epipolar, and a depth that is not multisampled");
   if ((technique == Technique::Tree || technique == Technique::LowRank) && view != View::Slices &&
       view != View::NodeVisits)
     return invalid("settings.view", name, "needs samples: technique Epipolar");

@@ -29,9 +29,11 @@
 //
 //   inscatter, transmittance, or what passes/SliceView.cpp drew of the first light --> [view] --> colour
 //
-//   Techniques tree and epipolar, per light, take the place of [exact]: passes/Epipolar.cpp has their picture.
+//   Techniques tree, lowrank and epipolar, per light, take the place of [exact]: passes/Epipolar.cpp has their picture.
 //
 namespace tyndall {
+
+static_assert(gl::kTextureUnits == static_cast<int>(gl::Unit::Upload) + 1, "the guard restores every unit of ours");
 
 struct Effect::State {
   explicit State(const Config& config) : programs(gl), targets(gl), recorder(gl, config.timing) {}

@@ -7,13 +7,15 @@
 
 namespace tyndall {
 
-namespace {
-
-struct Format {
+struct TargetFormat {
   gl::Enum internal;
   gl::Enum channels;
   int bytes;
 };
+
+namespace {
+
+using Format = TargetFormat;
 
 constexpr Format kR32{gl::R32F, gl::RED, 4}, kRg32{gl::RG32F, gl::RG, 8}, kRgba32{gl::RGBA32F, gl::RGBA, 16},
     kRgba16{gl::RGBA16F, gl::RGBA, 8}, kUnorm2{gl::RG16, gl::RG, 4}, kUnorm4{gl::RGBA16, gl::RGBA, 8};
@@ -68,23 +70,37 @@ gl::Uint Targets::get(Target target, int width, int height, bool wide) {
       slot.used = true;
       return slot.texture.name();
     }
+  Slot slot = make(format, width, height);
+  if (!slot.texture) { // without what this frame has not asked for it may fit
+    dropUnused();
+    slot = make(format, width, height);
+  }
+  if (!slot.texture) return 0;
+  slots_[index].push_back(std::move(slot));
+  return slots_[index].back().texture.name();
+}
+
+Targets::Slot Targets::make(const TargetFormat& format, int width, int height) {
   Slot slot{gl::Texture(gl_), true, width, height, format.bytes, format.internal};
   gl_.ActiveTexture(gl::TEXTURE0 + static_cast<gl::Enum>(gl::Unit::Upload));
   gl_.BindTexture(gl::TEXTURE_2D, slot.texture.name());
   gl_.TexParameteri(gl::TEXTURE_2D, gl::TEXTURE_MAX_LEVEL, 0);
   gl_.TexImage2D(gl::TEXTURE_2D, 0, static_cast<gl::Int>(format.internal), width, height, 0, format.channels, gl::FLOAT,
                  nullptr);
-  if (gl_.GetError() == gl::OUT_OF_MEMORY) return 0;
-  slots_[index].push_back(std::move(slot));
-  return slots_[index].back().texture.name();
+  if (gl_.GetError() == gl::OUT_OF_MEMORY) slot.texture = gl::Texture();
+  return slot;
+}
+
+void Targets::dropUnused() {
+  for (std::vector<Slot>& slots : slots_)
+    slots.erase(std::remove_if(slots.begin(), slots.end(), [](const Slot& slot) { return !slot.used; }), slots.end());
 }
 
 void Targets::endFrame() {
-  for (std::vector<Slot>& slots : slots_) {
-    slots.erase(std::remove_if(slots.begin(), slots.end(), [](const Slot& slot) { return !slot.used; }), slots.end());
+  dropUnused();
+  for (std::vector<Slot>& slots : slots_)
     for (Slot& slot : slots)
       slot.used = false;
-  }
 }
 
 gl::Uint Targets::stencil(int width, int height) {

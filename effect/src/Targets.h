@@ -43,6 +43,8 @@ enum class Target {
   Count
 };
 
+struct TargetFormat;
+
 class Targets {
 public:
   explicit Targets(const gl::Functions& gl) : gl_(gl) {}
@@ -68,6 +70,9 @@ private:
     int bytesPerTexel = 0;
     gl::Enum format = 0;
   };
+  Slot make(const TargetFormat& format, int width, int height); ///< without a texture if GL is out of memory
+  void dropUnused();
+
   const gl::Functions& gl_;
   std::array<std::vector<Slot>, static_cast<std::size_t>(Target::Count)> slots_;
   gl::Renderbuffer stencil_;

@@ -12,11 +12,11 @@
 #define Light Spectrum
 #endif
 
+#define FADES (SHADOW_VIEWS == 2 && LIGHT_KIND == 0) // cascades may fade into one another
+
 #if SHADOW_VIEWS > 0
 
 #include "lib/shadowMap.glsl"
-
-#define FADES (SHADOW_VIEWS == 2 && LIGHT_KIND == 0)
 
 // The part of a ray that one view owns: from s0 to s1, in texels and depth from p0 to p1.
 struct ViewSegment {

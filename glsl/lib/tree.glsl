@@ -1,7 +1,7 @@
 // Visibility along a slice's row, with a min/max tree over it (Chen 2011, 3.3; Yusov 2013). The row holds the shadow map's
 // texels along the slice, one per step; all rays of the slice run along it, each with its own linear depth.
 //
-// rowDepths: texels / 4 x rows (lib/slices.glsl), RGBA: four depths, or, where more than the texels themselves decides (2x2 filter, glass),
+// rowDepths: texels / 4 x rows (lib/rows.glsl), RGBA: four depths, or, where more than the texels themselves decides (2x2 filter, glass),
 // the group's split and, in rowShares, its mean. rowTree: nodes x rows, RGBA: splits (lib/split.glsl) of 16 texels (level 2), then of 64, 256, ...
 // (levels 3, 4, ...). Level l of a row of T texels holds T / 4^l nodes, behind those of the levels below. Depths grow away
 // from the light and are coded (rowCode): 16-bit where the light's depth is linear, else float.

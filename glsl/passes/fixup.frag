@@ -1,5 +1,5 @@
 // Fix-up: the pixels that unwarp left, each along its own line, with the pair tree of the slices on both sides of it; one
-// light, one shadow view a draw. Reads the scene depth, slice table, pairTree (as rowTree) and shadow map. Writes as exact.frag does.
+// light, the shadow views of a draw. Reads the scene depth, slice table, pairTree (as rowTree) and shadow map. Writes as exact.frag does.
 #define SKIPS_NODES
 #include "shared.glsl"
 #include "lib/camera.glsl"

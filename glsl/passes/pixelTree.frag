@@ -1,12 +1,12 @@
 // Pixel tree: every pixel, or every pixel that unwarp left, through the tree of its nearest slice (Chen 2011); one light,
-// one shadow view a draw. Reads the scene depth, slice table and row textures; LOW_RANK 1: lowRankRays, lowRankLights. Writes as exact.frag does.
+// the shadow views of a draw. Reads the scene depth, slice table and row textures; LOW_RANK 1: lowRankRays, lowRankLights. Writes as exact.frag does.
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
 #include "lib/depth.glsl"
 #include "lib/airlight.glsl"
 #include "lib/slices.glsl"
-#if LOW_RANK
+#ifdef LOW_RANK
 #include "lib/lowRank.glsl"
 #endif
 #include "lib/shadow.glsl"
@@ -24,7 +24,7 @@ layout(location = 1) out vec4 outTransmittance;
 void main() {
   float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy), 0)), 0.0);
   int slice = neighbourSlices(sliceCoordinate(gl_FragCoord.xy) + 0.5).x;
-#if LOW_RANK
+#ifdef LOW_RANK
   startLowRank(cameraRay(gl_FragCoord.xy), slice);
 #endif
   vec3 light = vec3(rowShadowedLight(cameraRay(gl_FragCoord.xy), 0.0, end, slice));

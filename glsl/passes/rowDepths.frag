@@ -1,5 +1,5 @@
 // Row depths: the shadow map along each slice, one texel a step, four steps a fragment (Chen 2011, 3.2).
-// Reads the slice table and the shadow map (glass map) of one view. Writes rowDepths: texels / 4 x rows, RGBA16 or
+// Reads the slice table and the shadow map (glass map) of the views of a draw. Writes rowDepths: texels / 4 x rows, RGBA16 or
 // RGBA32F, coded: four depths or, with the 2x2 filter or glass, the group's split (lib/split.glsl); then also rowShares,
 // its average. What lies behind a row's end is not read.
 #include "shared.glsl"

@@ -1,10 +1,10 @@
-// Strips: one rectangle per 64 slices, as long as the fullest of them needs, in a target of slices x fragments or,
+// Strips: one rectangle per 64 slices (rows), as long as the fullest of them needs, in a target of slices x fragments or,
 // for the rows, fragments x rows.
 // Reads, for the rows (STRIPS_OF_ROWS 1: four texels a fragment), the slice table, or, for the extra march samples (four
 // a fragment), extraOffsets. Draws 6 vertices an instance.
 #include "shared.glsl"
 
-#if STRIPS_OF_ROWS
+#ifdef STRIPS_OF_ROWS
 #include "lib/slices.glsl"
 #include "lib/rows.glsl"
 
@@ -27,7 +27,7 @@ void main() {
   bool right = gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4;
   bool top = gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5;
   vec2 corner = vec2(kWidth * (gl_InstanceID + (right ? 1 : 0)), top ? fragments : 0.0) / vec2(lines(), room());
-#if STRIPS_OF_ROWS
+#ifdef STRIPS_OF_ROWS
   corner = corner.yx;
 #endif
   gl_Position = vec4(2.0 * corner - 1.0, 0.0, 1.0);

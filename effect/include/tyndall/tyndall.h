@@ -215,6 +215,7 @@ struct Settings {
   /// LowRank: terms of the approximation, 1 to 8. Its error grows with the optical depth and with how much a lamp's
   /// phase function is peaked. Where the airlight has more than two coordinates (an orthographic camera before a lamp,
   /// a light with a boundary) LowRank is Tree.
+  /// With a far plane at infinity it counts on rays that end at Medium::farDistance.
   int lowRankTerms = 4;
   /// Epipolar: slices x samples of all lights together, dealt out by how much of the image a light covers and how
   /// bright it is; 0, or from 4096 on. A light gets at least 4096 and at most its own slices x samples, which 0 gives

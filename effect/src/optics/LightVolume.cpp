@@ -140,13 +140,15 @@ LightShare shareOf(const Light& light, const Camera& camera, const Medium& mediu
   const double colour = std::max({light.colour[0], light.colour[1], light.colour[2]});
   if (light.kind == LightKind::Directional) {
     const dvec3 extinction = extinctionOf(medium);
-    const double sigma = std::min({extinction.x, extinction.y, extinction.z});
-    return {1, colour * std::min({medium.farDistance, sigma > 0 ? 1 / sigma : kInfinity, 1e15})};
+    double sigma = kInfinity; // of the clearest channel that is dimmed
+    for (int c = 0; c < 3; ++c)
+      if (extinction[c] > 0) sigma = std::min(sigma, extinction[c]);
+    return {1, colour * std::min({medium.farDistance, std::isfinite(sigma) ? 1 / sigma : kInfinity, 1e15})};
   }
   constexpr int kColumns = 16, kRows = 9;
   const ViewVolume view(camera);
   const ReachedVolume reached(light, camera);
-  int met = 0;
+  double met = 0;
   for (int y = 0; y < kRows; ++y)
     for (int x = 0; x < kColumns; ++x) {
       const double u = (x + 0.5) / kColumns, v = (y + 0.5) / kRows;
@@ -156,8 +158,8 @@ LightShare shareOf(const Light& light, const Camera& camera, const Medium& mediu
       met += meets(reached, at(view.begin), glm::normalize(at(view.direction))) ? 1 : 0;
     }
   const double distance = std::max(glm::length(reached.position), 1e-12);
-  return {static_cast<double>(met) / (kColumns * kRows),
-          colour * std::min(2 * reached.angle, glm::pi<double>()) / distance};
+  // What no ray meets may lie between them.
+  return {std::max(met, 0.5) / (kColumns * kRows), colour * std::min(2 * reached.angle, glm::pi<double>()) / distance};
 }
 
 bool isOutOfView(const Light& light, const Camera& camera) {

@@ -36,6 +36,7 @@ public:
         addAngle(p);
     }
     if (directional_) {
+      if (leastCosine_ < 0 && mostCosine_ > 0) highest_ = 1; // between the ends of a slice
       lowest_ = std::log(std::max(lowest_, kLeastSine * highest_));
       extent_ = seen * highest_;
       highest_ = std::log(highest_);
@@ -54,8 +55,11 @@ public:
     highest_ = std::max(highest_, lowest_ + 1e-6);
   }
 
+  // True without angles that float32 resolves in the shader.
   bool isEmpty() const {
-    return !std::isfinite(lowest_) || !(extent_ > 0) || !std::isfinite(extent_) || !(distance_ > 0);
+    constexpr double kLeastAngle = 1e-4;
+    const bool narrow = directional_ ? std::exp(highest_) < kLeastAngle : extent_ < kLeastAngle;
+    return narrow || !std::isfinite(lowest_) || !(extent_ > 0) || !std::isfinite(extent_) || !(distance_ > 0);
   }
 
   double rayAt(int i) const {
@@ -119,12 +123,16 @@ private:
     const dvec3 ray = directionAt(window);
     const double sine = glm::length(glm::cross(axis_, ray)), cosine = glm::dot(axis_, ray);
     const double value = directional_ ? sine : std::atan2(sine, cosine);
+    leastCosine_ = std::min(leastCosine_, cosine);
+    mostCosine_ = std::max(mostCosine_, cosine);
     lowest_ = std::min(lowest_, value);
     highest_ = std::max(highest_, value);
   }
 
   // How far rays run: to the far plane or the sky; with a far plane at infinity few run farther than to the sky.
   double farthest() const {
+    if (block_.depthToT.z != 0)
+      return std::max(glm::length(dvec3(block_.nearStep)), static_cast<double>(block_.depthToT.w));
     double far = 0;
     for (const glm::dvec2 corner : {glm::dvec2(-0.5), glm::dvec2(0.5, -0.5), glm::dvec2(-0.5, 0.5), glm::dvec2(0.5)}) {
       const glm::dvec2 p = corner * glm::dvec2(block_.counts.z, block_.counts.w);
@@ -157,6 +165,7 @@ private:
   double distance_ = 0, end_ = 0;
   double begin_ = 0, extent_ = 0;            // of the light ray's coordinate
   double lowest_ = 1e300, highest_ = -1e300; // of the ray's coordinate
+  double leastCosine_ = 1, mostCosine_ = -1;
 };
 
 // Prefix sums of each term over gamma, dimmed by `falloff`, in cells that are summed in parts, and the terms

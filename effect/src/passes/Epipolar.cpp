@@ -19,7 +19,8 @@
 //   light, camera --> [slices] --> slice table, which all passes read
 //   shadow map, glass map --> [rows] --> row depths, row tree
 //
-//   Technique tree:      scene depth, row depths, row tree --> [pixel tree] --> destination
+//   Techniques tree and lowrank:
+//                        scene depth, row depths, row tree --> [pixel tree] --> destination
 //
 //   Technique epipolar:  scene depth --> [samples] --> sample ends, marks
 //                        sample ends, rows --> [march] --> marched

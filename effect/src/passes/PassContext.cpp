@@ -30,11 +30,11 @@ bool drawFullScreen(const PassContext& context, const std::string& fragment, con
   return true;
 }
 
-bool drawStrips(const PassContext& context, const std::string& vertex, int slices, const std::string& fragment,
+bool drawStrips(const PassContext& context, const std::string& vertex, int lines, const std::string& fragment,
                 const gl::Definitions& definitions) {
   if (context.programs.use(fragment, definitions, vertex) == 0) return false;
-  constexpr int kSlices = 64; // of a strip
-  context.gl.DrawArraysInstanced(gl::TRIANGLES, 0, 6, (slices + kSlices - 1) / kSlices);
+  constexpr int kLines = 64; // of a strip
+  context.gl.DrawArraysInstanced(gl::TRIANGLES, 0, 6, (lines + kLines - 1) / kLines);
   return true;
 }
 

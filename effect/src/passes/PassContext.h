@@ -28,8 +28,8 @@ void setBlend(const PassContext& context, Blend blend);
 /// Draws the full-screen triangle with a fragment shader of glsl/passes; false if it does not build.
 bool drawFullScreen(const PassContext& context, const std::string& fragment, const gl::Definitions& definitions);
 
-/// Draws instances of the six vertices of a vertex shader of glsl/passes.
-bool drawStrips(const PassContext& context, const std::string& vertex, int slices, const std::string& fragment,
+/// Draws instances of the six vertices of a vertex shader of glsl/passes: one for 64 lines, slices or rows.
+bool drawStrips(const PassContext& context, const std::string& vertex, int lines, const std::string& fragment,
                 const gl::Definitions& definitions);
 
 } // namespace tyndall::passes

@@ -1,4 +1,5 @@
-// Pixel tree: every pixel through its slice's tree, in as few draws as its rows allow (Chen 2011; glsl/passes/pixelTree).
+// Pixel tree: every pixel through its slice's tree, in as few draws as its rows allow (Chen 2011;
+// glsl/passes/pixelTree).
 #pragma once
 
 #include "passes/Rows.h"

@@ -1,5 +1,5 @@
-// Rows: the shadow map along every slice, for the views of one draw, and a min/max tree over each (Chen 2011, 3.2 and 3.3;
-// glsl/passes/rowDepths, rowNodes, rowTree, pairTree).
+// Rows: the shadow map along every slice, for the views of one draw, and a min/max tree over each (Chen 2011, 3.2
+// and 3.3; glsl/passes/rowDepths, rowNodes, rowTree, pairTree).
 #pragma once
 
 #include "passes/SliceContext.h"

@@ -40,8 +40,8 @@ struct SliceContext {
   bool isColoured() const { return !inputs.variant.monochrome || inputs.variant.glass; }
   /// Shadow views of the light; 0 without a shadow map.
   int views() const { return inputs.variant.shadowViews == 0 ? 0 : slices.block.march.w; }
-  /// Draws that march it: as few as row textures of bounded size allow, and at least one, which brings the light that is
-  /// outside all views.
+  /// Draws that march it: as few as row textures of bounded size allow, and at least one, which brings the light that
+  /// is outside all views.
   int draws() const { return views() > 0 ? (views() + slices.viewsPerDraw - 1) / slices.viewsPerDraw : 1; }
 
   /// Uploads the block for one of the draws.

@@ -56,6 +56,15 @@ TEST_CASE("low rank comes near the closed form with its terms, for every kind of
       }
 }
 
+TEST_CASE("low rank holds for rays across a sun overhead, between a slice's ends") {
+  tests::ShaftRig rig(72, 48);
+  setMedium(rig, {0.05F, 0.05F, 0.05F});
+  Light overhead = sun();
+  overhead.direction = {0, -1, 0.01};
+  rig.addLight(overhead);
+  CHECK(errorOf(rig, rig.picture(Technique::Tree), 8) <= 0.003);
+}
+
 TEST_CASE("a peaked phase function of a directional light is outside the approximation") {
   tests::ShaftRig rig(72, 48);
   setMedium(rig, {0.03F, 0.03F, 0.03F});

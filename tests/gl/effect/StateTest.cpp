@@ -11,6 +11,8 @@ using host::gl;
 
 namespace {
 
+constexpr int kUnits = 32; // of textures: more than the effect has
+
 using State = std::map<std::string, std::vector<double>>;
 
 void addIntegers(State& state, const std::string& name, GLenum query, int count = 1) {
@@ -128,7 +130,7 @@ State captureState() {
     }
   GLint active = 0;
   gl().GetIntegerv(GL_ACTIVE_TEXTURE, &active);
-  for (int unit = 0; unit < 16; ++unit) {
+  for (int unit = 0; unit < kUnits; ++unit) {
     gl().ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     for (const GLenum query :
          {GL_TEXTURE_BINDING_2D, GL_TEXTURE_BINDING_2D_ARRAY, GL_TEXTURE_BINDING_2D_MULTISAMPLE,
@@ -206,7 +208,7 @@ struct Poison {
     g.BindBufferBase(GL_UNIFORM_BUFFER, 0, uniforms.name());
     g.BindBufferRange(GL_UNIFORM_BUFFER, 1, uniforms.name(), 1024, 512);
     g.BindBuffer(GL_UNIFORM_BUFFER, 0);
-    for (int unit = 0; unit < 16; ++unit) {
+    for (int unit = 0; unit < kUnits; ++unit) {
       g.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
       textures.push_back(host::makeTexture2D(GL_R8, 1, 1));
       textures.push_back(host::makeTextureArray(GL_R8, 1, 1, 2));

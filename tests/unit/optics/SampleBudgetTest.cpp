@@ -66,6 +66,24 @@ TEST_CASE("a budget is kept, and spent") {
   }
 }
 
+TEST_CASE("a budget is kept though one light is cut to the most and the others are raised to the least") {
+  std::vector<Light> lights(16, lamp({0, 0, -6}, 1, 0.002F));
+  lights[0].colour = {1, 1, 1};
+  Frame frame = frameWith(lights, 120000);
+  frame.settings.slices = 576;
+  frame.settings.samples = 192;
+  int sum = 0;
+  for (const int samples : dealt(frame))
+    sum += samples;
+  CHECK(sum <= 120000);
+}
+
+TEST_CASE("techniques without samples have no budget") {
+  Frame frame = frameWith({lamp({0, 0, -6}, 1, 1)}, 4096);
+  frame.settings.technique = Technique::Tree;
+  CHECK(dealt(frame) == std::vector<int>{kAll});
+}
+
 TEST_CASE("what covers more of the image, or is brighter, gets more samples; the same light the same") {
   const Light light = lamp({0, 0, -6}, 4, 4);
   for (const Light& lesser : {lamp({0, 0, -6}, 1.5, 4), lamp({0, 0, -6}, 4, 1)}) {
