@@ -220,10 +220,10 @@ const std::vector<Breakage> kBreakages = {
     {"view below", [](Frame& f) { setEnum(f.settings.view, -1); }, {"settings.view is -1", "enumerators"}},
     {"slices of exact",
      [](Frame& f) { f.settings.view = View::Slices; },
-     {"settings.view is Slices", "technique Tree or Epipolar"}},
+     {"settings.view is Slices", "technique Tree, LowRank or Epipolar"}},
     {"fix-up pixels of exact",
      [](Frame& f) { f.settings.view = View::FixupPixels; },
-     {"settings.view is FixupPixels", "technique Tree or Epipolar"}},
+     {"settings.view is FixupPixels", "technique Tree, LowRank or Epipolar"}},
     {"samples of tree",
      [](Frame& f) {
        f.settings.technique = Technique::Tree;
