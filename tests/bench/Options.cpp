@@ -185,7 +185,7 @@ void addOptions(CLI::App& app, Typed& typed) {
   app.add_flag("--scaling", typed.scaling, "the scaling series, too");
   app.add_flag("--plots", typed.plots, "draw them (needs python3 with matplotlib)");
   app.add_flag("--quick", typed.quick, "small pictures of two scenes, within a minute; overrides the lists");
-  app.add_flag("--all", typed.all, "the whole report: every scene, reference and series, with plots");
+  app.add_flag("--all", typed.all, "the whole report: every scene but concert, reference and series, with plots");
 }
 
 } // namespace
