@@ -32,27 +32,41 @@ void startLowRank(Ray ray, int slice) {
   lowRank.set = lowRankLight.y != 0.0 ? slice : 0;
   int low = clamp(int(place), 0, kLowRankGrid - 2);
   float f = clamp(place - float(low), 0.0, 1.0);
-  for (int i = 0; i < kMostTerms; ++i)
+  for (int i = 0; i < kMostTerms; ++i) {
+    lowRank.terms[i] = Spectrum(0.0);
     if (i < int(lowRankRay.z))
       lowRank.terms[i] = mix(SPECTRUM(texelFetch(lowRankRays, ivec2(low, i), 0)), SPECTRUM(texelFetch(lowRankRays, ivec2(low + 1, i), 0)), f);
+  }
 }
 
-// Where light crosses the ray at s: the cell of the grid, the place in it from 0 to 1, the cell's length.
-vec3 lightPlace(Airlight light, float s) {
-  float last = float(kLowRankGrid - 1);
 #if LIGHT_KIND == 0
-  float x = min(s * lowRank.scale, lowRankLight.x), cell = clamp(floor(last * pow(x / lowRankLight.x, 1.0 / 3.0)), 0.0, last - 1.0);
+// The place of a light ray, at a distance from the line through the eye along the light, in the grid: the cell, the place in it from 0 to 1, the
+// cell's length.
+vec3 placeOfLight(float x) {
+  float last = float(kLowRankGrid - 1);
+  x = clamp(x, 0.0, lowRankLight.x);
+  float cell = clamp(floor(last * pow(x / lowRankLight.x, 1.0 / 3.0)), 0.0, last - 1.0);
   float unit = lowRankLight.x / (last * last * last), begin = cell * cell * cell * unit;
   float len = (3.0 * cell * (cell + 1.0) + 1.0) * unit;
   return vec3(cell, clamp((x - begin) / len, 0.0, 1.0), len);
-#else
-  float gamma = atan((s - light.foot) * inversesqrt(light.height2)) + lowRank.scale, at = clamp((gamma - lowRankLight.z) / lowRankLight.x * last, 0.0, last);
-  float cell = min(floor(at), last - 1.0);
-  return vec3(cell, at - cell, lowRankLight.x / last);
-#endif
 }
 
-// A term's prefix sum: the cubic through the sums and slopes at the cell's ends.
+// Of the one that crosses the ray at s.
+vec3 lightPlace(Airlight light, float s) { return placeOfLight(s * lowRank.scale); }
+#else
+// The same of a light ray at an angle to the line from the lamp to the eye.
+vec3 placeOfLight(float gamma) {
+  float last = float(kLowRankGrid - 1), at = clamp((gamma - lowRankLight.z) / lowRankLight.x * last, 0.0, last);
+  float cell = min(floor(at), last - 1.0);
+  return vec3(cell, at - cell, lowRankLight.x / last);
+}
+
+vec3 lightPlace(Airlight light, float s) {
+  return placeOfLight(atan((s - light.foot) * inversesqrt(light.height2)) + lowRank.scale);
+}
+#endif
+
+// A term's prefix sum up to a place: the cubic through the sums and slopes at the cell's ends.
 Spectrum prefixSum(int term, vec3 place) {
   ivec2 at = ivec2(lowRank.set, 2 * term * kLowRankGrid + int(place.x)), slopes = at + ivec2(0, kLowRankGrid);
   Spectrum c0 = SPECTRUM(texelFetch(lowRankLights, at, 0)), c1 = SPECTRUM(texelFetch(lowRankLights, at + ivec2(0, 1), 0));

@@ -25,11 +25,17 @@ bool takeGroup(RowLine line, inout RowWalk walk, float current, out bool average
   float u = rowEnd(line, walk, next), end = rowDepth(line, u);
   vec4 split = texelFetch(rowDepths, ivec2(walk.index >> 2, line.row), 0);
   float found = boundsVisibility(walk.depth, end, split.xw);
-  averaged = found == kMixed && (walk.index & 3) == 0 && isAverage(line, walk, 1, next, end, split);
+  averaged = (found == kMixed || current == kAverage) && (walk.index & 3) == 0 && isAverage(line, walk, 1, next, end, split);
+#ifdef TINT_SUMS
+  if (averaged && current == kAverage) found = kAverage;
+#endif
   if (walk.index > line.last || found != current) return false;
   walk = RowWalk(next, u, end);
   return true;
 }
+
+// As a visibility: TINT_SUMS has the light of the stretch.
+const Visibility kTinted = Visibility(-1.0);
 
 // The same integral as segmentLight, over the slice's row. The inner loop finds the next stretch of equal visibility, or
 // one that its average stands for, which ends the stretch before it.
@@ -41,12 +47,14 @@ Light rowLight(Airlight light, ViewSegment segment, int slice) {
   Light sum = Light(0.0);
   Visibility current = Visibility(0.0);
   float from = 0.0;
+  int first = 0; // index where the stretch begins
   bool done = false;
   while (!done) {
     Average weight = Average(Visibility(0.0), Visibility(0.0));
     vec2 span = vec2(0.0);
+    ivec2 indices = ivec2(0);
     while (!done && weight.mean == Visibility(0.0)) {
-      float state = current == Visibility(1.0) ? 1.0 : current == Visibility(0.0) ? 0.0 : -1.0;
+      float state = current == kTinted ? kAverage : current == Visibility(1.0) ? 1.0 : current == Visibility(0.0) ? 0.0 : -1.0;
       int averageEnd = 0, average = 0, nodeEnd;
       float found = walkNodes(line, walk, state, averageEnd, average);
       nodeEnd = ((walk.index >> 4) + 1) << 4;
@@ -59,13 +67,21 @@ Light rowLight(Airlight light, ViewSegment segment, int slice) {
       bool look = !done && !averaged && walk.index < nodeEnd; // else the next node's turn
       Visibility visibility = current;
       if (look) visibility = found != kMixed ? Visibility(found) : texelVisibility(line, walk, segment, u);
+#ifdef TINT_SUMS
+      if (averaged) visibility = kTinted;
+      else
+#endif
       if (done || averaged) visibility = Visibility(0.0);
       if (visibility != current) {
         weight.mean = current;
         span = vec2(from, walk.u);
+        indices = ivec2(first, walk.index);
         current = visibility;
         from = walk.u;
-      } else if (averaged) {
+        first = walk.index;
+      }
+#ifndef TINT_SUMS
+      else if (averaged) {
         int next = groupAveraged ? walk.index + 4 : averageEnd;
         weight.mean = Visibility(texelFetch(rowShares, ivec2(walk.index >> 2, line.row), 0).rgb);
         if (!groupAveraged) weight = averageAt(average, line.row);
@@ -74,12 +90,19 @@ Light rowLight(Airlight light, ViewSegment segment, int slice) {
         from = walk.u;
         done = walk.index > line.last;
       }
+#endif
       --guard;
       if (look && found == kMixed) {
         if (u < uTexel) advanceRow(line, walk, walk.index, u);
         else advanceRow(line, walk, walk.index + 1, uTexel);
       }
     }
+#ifdef TINT_SUMS
+    if (weight.mean == kTinted) {
+      sum += tintedLight(line.row, indices.x, indices.y);
+      continue;
+    }
+#endif
     sum += spanLight(light, segment, span.x, span.y, weight.mean, weight.moment);
   }
   return sum;

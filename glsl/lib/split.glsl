@@ -1,6 +1,8 @@
 // What a node of a row's tree says of its texels' depths (coded), beyond their bounds: lowest, before, behind, highest.
 // No depth lies between `before` and `behind`, so that for a receiver there each texel's visibility is one all along: the
 // node's average is their mean and its first moment over the node, from -1 to 1.
+// TINT_SUMS (glass, technique lowrank): `before` is behind all panes, `behind` before all casters, if there is such a
+// depth: each texel's visibility there is its tint, of which lib/tintSums.glsl has sums; averages are not used.
 // GLASS: 0 or 1.
 
 #if GLASS
@@ -13,7 +15,14 @@ struct Average {
   Share mean, moment;
 };
 
-const vec4 kNoSplit = vec4(3.4e38, 3.4e38, -3.4e38, -3.4e38); // 1, 1, 0, 0 where depths are stored in 16 bits
+// 1, 1, 0, 0 where depths are stored in 16 bits
+#ifdef TINT_SUMS
+const vec4 kNoSplit = vec4(3.4e38, -3.4e38, 3.4e38, -3.4e38);
+vec4 splitOfBounds(float lowest, float highest) { return vec4(lowest, -3.4e38, 3.4e38, highest); }
+#else
+const vec4 kNoSplit = vec4(3.4e38, 3.4e38, -3.4e38, -3.4e38);
+vec4 splitOfBounds(float lowest, float highest) { return vec4(lowest, lowest, highest, highest); }
+#endif
 
 // As textures hold an average: both in one (RG), or one each (RGBA) with glass.
 #if GLASS
@@ -31,8 +40,11 @@ float splitOf(int view, float lowest, float highest) {
   return 0.5 * (lowest + min(highest, max(far, lowest)));
 }
 
-// Gathers children 0, 1, ..., count - 1 into a node, begun with its bounds: (lowest, lowest, highest, highest), 0.
+// Gathers children 0, 1, ..., count - 1 into a node, begun with its bounds (splitOfBounds) and 0.
 void addChild(vec4 child, Average childAverage, int i, int count, float middle, inout vec4 split, inout Average average) {
+#ifdef TINT_SUMS
+  split.yz = vec2(max(split.y, child.y), min(split.z, child.z));
+#else
   Average part = Average(Share(0.0), Share(0.0));
   if (child.x > middle) { // all behind
     split.z = min(split.z, child.x);
@@ -47,4 +59,5 @@ void addChild(vec4 child, Average childAverage, int i, int count, float middle, 
   float scale = 1.0 / float(count), place = (2.0 * float(i) + 1.0) * scale - 1.0;
   average.mean += part.mean * scale;
   average.moment += (part.mean * place + part.moment * scale) * scale;
+#endif
 }

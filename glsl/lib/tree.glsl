@@ -34,6 +34,9 @@ struct RowLine {
   int row;  // where row textures hold it
   int last; // index of the last texel
   int firstWhole; // first texel that the ray crosses whole
+#ifdef TINT_SUMS
+  bool tintSums;  // the ray may use them
+#endif
   int evenLevel;  // coarsest level at which a line stands for the airlight over a node
 };
 
@@ -61,6 +64,12 @@ void startRow(Airlight light, ViewSegment segment, int slice, out RowLine line, 
   // The longest texel of a projection that may be a perspective one.
   float texel = (segment.s1 - segment.s0) * line.inverse * max(segment.w0 / segment.w1, segment.w1 / segment.w0);
   line.evenLevel = int(floor(0.5 * log2(clamp(evenLength(light, spread.y) / max(texel, 1e-30), 1.0, 1e9))));
+#ifdef TINT_SUMS
+  line.tintSums = lowRank.valid;
+#if FADES
+  line.tintSums = lowRank.valid && segment.share == vec2(1.0);
+#endif
+#endif
   line.depth = segment.p0.z * rowCode.x + rowCode.y;
   line.slope = (segment.p1.z - segment.p0.z) * rowCode.x;
   walk.u = 0.0;
@@ -89,11 +98,14 @@ float boundsVisibility(float begin, float end, vec2 bounds) {
 const float kAverage = 2.0;
 
 // True if the ray crosses all of a node, between the depths that split it, and the airlight is even enough there for the
-// node's average to stand for it.
+// node's average to stand for it; or (TINT_SUMS) whatever the airlight.
 bool isAverage(RowLine line, RowWalk walk, int level, int next, float end, vec4 split) {
   bool inside = min(walk.depth, end) > split.y && max(walk.depth, end) <= split.z;
 #if FILTER_BILINEAR || GLASS
   if (walk.u > (float(walk.index) - line.begin) * line.inverse + 1e-6 * line.inverse) return false; // within a texel
+#endif
+#ifdef TINT_SUMS
+  return inside && line.tintSums && walk.index >= line.firstWhole && next <= line.last;
 #endif
   return inside && level <= line.evenLevel && walk.index >= line.firstWhole && next <= line.last + 1;
 }
@@ -119,6 +131,9 @@ float walkNodes(RowLine line, inout RowWalk walk, float current, out int nodeEnd
     float u = rowEnd(line, walk, next), end = rowDepth(line, u);
     vec4 split = texelFetch(rowTree, ivec2(base + node, line.row), 0);
     found = boundsVisibility(walk.depth, end, split.xw);
+#ifdef TINT_SUMS
+    if (current == kAverage && isAverage(line, walk, level, next, end, split)) found = kAverage;
+#endif
     nodeEnd = next;
     average = base + node;
     if (found == current) {

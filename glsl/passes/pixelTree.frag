@@ -10,6 +10,9 @@
 #include "lib/lowRank.glsl"
 #endif
 #include "lib/shadow.glsl"
+#ifdef TINT_SUMS
+#include "lib/tintSums.glsl"
+#endif
 #include "lib/tree.glsl"
 #include "lib/row.glsl"
 

@@ -58,14 +58,18 @@ float highestOf(vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
 void addPoint(Point point, float middle, inout vec4 split, inout Share share) {
   for (int i = 0; i < 1 + 3 * FILTER_BILINEAR; ++i) {
     float pane = point.pane[i], caster = point.caster[i];
+#ifdef TINT_SUMS
+    split.yz = vec2(pane < caster ? max(split.y, pane) : split.y, min(split.z, caster));
+#else
     bool lit = pane > middle, dark = caster <= middle;
     split.y = max(split.y, lit ? split.y : dark ? caster : pane);
     split.z = min(split.z, lit ? pane : dark ? split.z : caster);
     share += Share(lit ? 0.25 * point.weights[i] : 0.0);
+#endif
   }
 }
 
-#if GLASS
+#if GLASS && !defined(TINT_SUMS)
 
 bool isTinted(Point point, float middle) {
   return any(lessThanEqual(point.pane, vec4(middle))) && any(greaterThan(point.caster, vec4(middle)));
@@ -93,13 +97,13 @@ void main() {
   float lowest = lowestOf(min(min(a.pane, b.pane), min(c.pane, d.pane)));
   float highest = highestOf(max(max(a.caster, b.caster), max(c.caster, d.caster)));
   float middle = splitOf(view, lowest, highest);
-  vec4 split = vec4(lowest, lowest, highest, highest);
+  vec4 split = splitOfBounds(lowest, highest);
   Share share = Share(0.0);
   addPoint(a, middle, split, share);
   addPoint(b, middle, split, share);
   addPoint(c, middle, split, share);
   addPoint(d, middle, split, share);
-#if GLASS
+#if GLASS && !defined(TINT_SUMS)
   // A loop, so that where no pane is near little is fetched.
   int points = isTinted(a, middle) || isTinted(b, middle) || isTinted(c, middle) || isTinted(d, middle) ? 4 : 0;
   for (int k = 0; k < points; ++k) {

@@ -36,7 +36,7 @@ void main() {
     bounds = vec2(min(bounds.x, one.x), max(bounds.y, one.y));
   }
   float middle = splitOf(view, bounds.x, bounds.y);
-  vec4 split = bounds.xxyy;
+  vec4 split = splitOfBounds(bounds.x, bounds.y);
   for (int i = 0; i < 4; ++i) {
     ivec2 at = ivec2(4 * node + i, row);
     vec3 share = texelFetch(rowShares, at, 0).rgb;
@@ -57,7 +57,7 @@ void main() {
   vec4 low = min(min(depths[0], depths[1]), min(depths[2], depths[3])), high = max(max(depths[0], depths[1]), max(depths[2], depths[3]));
   vec2 bounds = vec2(min(min(low.x, low.y), min(low.z, low.w)), max(max(high.x, high.y), max(high.z, high.w)));
   float middle = splitOf(view, bounds.x, bounds.y);
-  vec4 split = bounds.xxyy;
+  vec4 split = splitOfBounds(bounds.x, bounds.y);
   for (int i = 0; i < 16; ++i) {
     float depth = depths[i >> 2][i & 3];
     if (depth > middle) {

@@ -40,7 +40,7 @@ void main() {
       bounds = vec2(min(bounds.x, one.x), max(bounds.y, one.y));
     }
     float middle = splitOf(view, bounds.x, bounds.y);
-    split = bounds.xxyy;
+    split = splitOfBounds(bounds.x, bounds.y);
     average = Average(Share(0.0), Share(0.0));
     for (int i = 0; i < count; ++i) {
       ivec2 at = ivec2(first + i, row);

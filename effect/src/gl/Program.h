@@ -42,6 +42,12 @@ enum class Unit : Uint {
   MeanLight = Marched,
   LowRankRays = Marks, ///< of the pixel tree, which reads no samples
   LowRankLights = Extra,
+  TintRed = EpipolarInscatter, ///< of the pixel tree as well, whose walk then needs no averages
+  TintGreen = Inscatter,
+  TintBlue = Transmittance,
+  CoarserRed = RowShares,
+  CoarserGreen = RowMeans,
+  CoarserBlue = RowMoments,
   ViewImage = Marched, ///< debug views run after the passes that read these, or read neither
   ViewExact = Extra,
   ViewMean = EpipolarInscatter,

@@ -1,6 +1,8 @@
 #include "passes/PixelTree.h"
 
+#include "optics/Blocks.h"
 #include "optics/LowRank.h"
+#include "passes/TintSums.h"
 
 namespace tyndall::passes::pixel_tree {
 
@@ -16,16 +18,26 @@ gl::Definitions visitsOf(exact::Variant variant) {
   return definitions;
 }
 
-gl::Definitions pixelsOf(const exact::Variant& variant, bool lowRank) {
-  gl::Definitions definitions = exact::definitionsOf(variant);
-  if (lowRank) definitions.emplace_back("LOW_RANK", 1);
+struct Tables {
+  bool lowRank = false;
+  bool tintSums = false;
+};
+
+gl::Definitions pixelsOf(const exact::Variant& variant, const Tables& tables) {
+  gl::Definitions definitions = rows::definitionsOf(variant, tables.tintSums);
+  if (tables.lowRank) definitions.emplace_back("LOW_RANK", 1);
   return definitions;
 }
 
-// Technique::LowRank's tables; `used` unless the light is one that it does not apply to.
-Status makeLowRank(SliceContext& context, bool& used) {
+// An orthographic camera's rays cross one light ray at different distances: they have no sums in common.
+bool usesTintSums(const SliceContext& context) {
+  return context.inputs.variant.glass && context.slices.block.grid.w > 0 &&
+         optics::frameBlock(*context.inputs.frame, {}).depthToT.z == 0;
+}
+
+// Technique::LowRank's tables, unless the light is one that it does not apply to.
+Status makeLowRank(SliceContext& context, Tables& tables) {
   const Frame& frame = *context.inputs.frame;
-  used = false;
   if (frame.settings.technique != Technique::LowRank) return {};
   const auto table = optics::makeLowRank(frame, *context.inputs.light, context.slices.geometry);
   if (!table) return {};
@@ -42,16 +54,16 @@ Status makeLowRank(SliceContext& context, bool& used) {
     return s;
   context.slices.block.lowRankRay = table->ray;
   context.slices.block.lowRankLight = table->light;
-  used = true;
+  tables = {true, usesTintSums(context)};
   return {};
 }
 
-Status drawPixels(SliceContext& context, int draw, bool lowRank) {
+Status drawPixels(SliceContext& context, int draw, const Tables& tables) {
   const Frame& frame = *context.inputs.frame;
   if (Status s = context.inputs.attachDestination(false, draw == 0); !s) return s;
   setBlend(context.pass, draw == 0 ? context.inputs.blend : Blend::Add);
   context.recorder.countMarched(static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height));
-  return context.draw("pixels", kShader, pixelsOf(context.inputs.variant, lowRank));
+  return context.draw("pixels", kShader, pixelsOf(context.inputs.variant, tables));
 }
 
 Status drawVisits(SliceContext& context) {
@@ -64,22 +76,29 @@ Status drawVisits(SliceContext& context) {
 
 Status run(SliceContext& context, const In& in) {
   rows::Out rows;
-  bool lowRank = false;
+  Tables tables;
   if (!in.countVisits)
-    if (Status s = makeLowRank(context, lowRank); !s) return s;
+    if (Status s = makeLowRank(context, tables); !s) return s;
   for (int draw = 0; draw < context.draws(); ++draw) {
-    if (Status s = rows::run(context, {draw}, rows); !s) return s;
+    if (Status s = rows::run(context, {draw, tables.tintSums}, rows); !s) return s;
     context.selectDraw(draw);
     context.bindSceneDepth();
     context.bindSlices();
     rows::bind(context, rows);
-    if (Status s = in.countVisits ? drawVisits(context) : drawPixels(context, draw, lowRank); !s) return s;
+    if (tables.tintSums)
+      if (Status s = tint_sums::run(context, {rows}); !s) return s;
+    if (Status s = in.countVisits ? drawVisits(context) : drawPixels(context, draw, tables); !s) return s;
   }
   return {};
 }
 
 std::vector<gl::Variant> variantsOf(const exact::Variant& variant) {
-  std::vector<gl::Variant> all = {{kShader, pixelsOf(variant, false)}, {kShader, pixelsOf(variant, true)}};
+  std::vector<gl::Variant> all = {{kShader, pixelsOf(variant, {})}, {kShader, pixelsOf(variant, {true, false})}};
+  if (variant.glass) {
+    all.push_back({kShader, pixelsOf(variant, {true, true})});
+    for (const gl::Variant& sums : tint_sums::variantsOf(variant))
+      all.push_back(sums);
+  }
   if (variant.monochrome && !variant.composite) all.push_back({kShader, visitsOf(variant)});
   return all;
 }

@@ -31,14 +31,13 @@ Status targets(SliceContext& context, const TreeTargets& which, int width, int d
 }
 
 // Draws what has one fragment for four texels of a row, where rows are.
-gl::Variant inStrips(const char* fragment, const exact::Variant& variant) {
-  gl::Definitions definitions = exact::definitionsOf(variant);
+gl::Variant inStrips(const char* fragment, gl::Definitions definitions) {
   definitions.emplace_back("STRIPS_OF_ROWS", 1);
   return {fragment, definitions, "passes/strips.vert"};
 }
 
-Status drawStrips(SliceContext& context, const char* name, const char* fragment) {
-  const gl::Variant v = inStrips(fragment, context.inputs.variant);
+Status drawStrips(SliceContext& context, const char* name, const char* fragment, const gl::Definitions& definitions) {
+  const gl::Variant v = inStrips(fragment, definitions);
   const bool ok = context.recorder.run(context.inputs.name + " " + name, [&] {
     return drawStrips(context.pass, v.vertex, context.rows(), v.fragment, v.definitions);
   });
@@ -50,6 +49,7 @@ Status drawStrips(SliceContext& context, const char* name, const char* fragment)
 Status run(SliceContext& context, const In& in, Out& out) {
   if (context.views() == 0) return {};
   const int room = context.slices.rowTexels, drawn = context.slices.block.grid.z, levels = context.slices.block.grid.w;
+  const gl::Definitions definitions = definitionsOf(context.inputs.variant, in.tintSums);
   context.selectDraw(in.draw);
   context.bindSlices();
   context.bindMaps();
@@ -58,7 +58,7 @@ Status run(SliceContext& context, const In& in, Out& out) {
   const bool hasShares = context.inputs.variant.glass || context.inputs.variant.bilinear;
   if (hasShares)
     if (Status s = context.attachMore(1, Target::RowShares, room / 4, context.rowRoom(), out.shares); !s) return s;
-  Status drawnDepths = drawStrips(context, "rows", "passes/rowDepths.frag");
+  Status drawnDepths = drawStrips(context, "rows", "passes/rowDepths.frag", definitions);
   context.detachMore(1);
   if (!drawnDepths) return drawnDepths;
   if (levels == 0) {
@@ -72,12 +72,12 @@ Status run(SliceContext& context, const In& in, Out& out) {
   constexpr TreeTargets kFinest{Target::RowNodes, Target::RowNodeMeans, Target::RowNodeMoments};
   constexpr TreeTargets kAll{Target::RowTree, Target::RowMeans, Target::RowMoments};
   if (Status s = targets(context, kFinest, room / 16, drawn / 16, finest); !s) return s;
-  if (Status s = context.draw("nodes", "passes/rowNodes.frag", context.definitions); !s) return s;
+  if (Status s = context.draw("nodes", "passes/rowNodes.frag", definitions); !s) return s;
   context.bind(gl::Unit::RowNodes, finest.tree);
   context.bind(gl::Unit::RowNodeMeans, finest.means);
   if (finest.moments) context.bind(gl::Unit::RowNodeMoments, finest.moments);
   if (Status s = targets(context, kAll, treeNodes(room, 2, levels), treeNodes(drawn, 2, levels), out); !s) return s;
-  Status drawnTree = context.draw("tree", "passes/rowTree.frag", context.definitions);
+  Status drawnTree = context.draw("tree", "passes/rowTree.frag", definitions);
   context.detachMore(1);
   return drawnTree;
 }
@@ -92,21 +92,30 @@ Status runPairs(SliceContext& context, const In& in, Out& out) {
   setBlend(context.pass, Blend::Replace);
   const int groups = drawn / 4;
   if (Status s = target(context, Target::PairTree, treeNodes(room, 1, levels), groups, pairs); !s) return s;
-  if (Status s = drawStrips(context, "pair groups", "passes/pairTree.frag"); !s) return s;
+  if (Status s = drawStrips(context, "pair groups", "passes/pairTree.frag", context.definitions); !s) return s;
   context.gl.Viewport(groups, 0, treeNodes(drawn, 2, levels), context.rows());
   if (Status s = context.draw("pair tree", "passes/pairTree.frag", context.definitions); !s) return s;
   out.tree = pairs;
   return {};
 }
 
+gl::Definitions definitionsOf(const exact::Variant& variant, bool tintSums) {
+  gl::Definitions definitions = exact::definitionsOf(variant);
+  if (tintSums) definitions.emplace_back("TINT_SUMS", 1);
+  return definitions;
+}
+
 std::vector<gl::Variant> variantsOf(const exact::Variant& variant) {
   if (variant.shadowViews == 0) return {};
-  const gl::Definitions definitions = exact::definitionsOf(variant);
-  return {inStrips("passes/rowDepths.frag", variant),
-          {"passes/rowNodes.frag", definitions},
-          {"passes/rowTree.frag", definitions},
-          inStrips("passes/pairTree.frag", variant),
-          {"passes/pairTree.frag", definitions}};
+  const gl::Definitions pairs = exact::definitionsOf(variant);
+  std::vector<gl::Variant> all = {inStrips("passes/pairTree.frag", pairs), {"passes/pairTree.frag", pairs}};
+  for (int sums = 0; sums <= (variant.glass ? 1 : 0); ++sums) {
+    const gl::Definitions definitions = definitionsOf(variant, sums == 1);
+    all.push_back(inStrips("passes/rowDepths.frag", definitions));
+    all.push_back({"passes/rowNodes.frag", definitions});
+    all.push_back({"passes/rowTree.frag", definitions});
+  }
+  return all;
 }
 
 void bind(const SliceContext& context, const Out& rows) {

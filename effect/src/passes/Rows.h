@@ -8,6 +8,7 @@ namespace tyndall::passes::rows {
 
 struct In {
   int draw = 0;
+  bool tintSums = false; ///< splits for the walk that uses sums of tints (glass): behind all panes, before all casters
 };
 
 struct Out {
@@ -22,6 +23,9 @@ Status run(SliceContext& context, const In& in, Out& out);
 
 /// The tree over each two neighbouring rows, in place of out.tree, for rays that run between them.
 Status runPairs(SliceContext& context, const In& in, Out& out);
+
+/// The definitions of the walk along rows, and of what is made for it.
+gl::Definitions definitionsOf(const exact::Variant& variant, bool tintSums);
 
 /// All programs of a light.
 std::vector<gl::Variant> variantsOf(const exact::Variant& variant);

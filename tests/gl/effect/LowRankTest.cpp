@@ -1,6 +1,7 @@
 // Technique lowrank: spans by differences of prefix sums (Chen 2011, 3.2) against the closed forms of technique tree.
 #include "ShaftRig.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 using namespace tyndall;
@@ -23,6 +24,12 @@ Light point() { return lamp(LightKind::Point, {-0.6, 8.5, -3.5}, {0, -1, 0}); }
 double errorOf(tests::ShaftRig& rig, const reference::Image& truth, int terms) {
   rig.scene.frame.settings.lowRankTerms = terms;
   return tests::errorWhere(rig.picture(Technique::LowRank), truth, kEverywhere);
+}
+
+bool hasPass(const std::string& name) {
+  const Statistics statistics = tests::testEffect().statistics();
+  return std::any_of(statistics.passes.begin(), statistics.passes.end(),
+                     [&](const PassStatistics& pass) { return pass.name == name && pass.skipped.empty(); });
 }
 
 // An isotropic medium, grey or not.
@@ -93,4 +100,46 @@ TEST_CASE("low rank of a light that is not dimmed is finite and near") {
   setMedium(rig, {1e4F, 1e4F, 1e4F}); // nothing passes
   const reference::Image dense = rig.picture(Technique::LowRank);
   CHECK(tests::errorWhere(dense, rig.picture(Technique::Tree), kEverywhere) < 1);
+}
+
+TEST_CASE("low rank behind glass: sums of tints along rows are what one texel at a time brings") {
+  struct Case {
+    Light light;
+    int cascades;
+    double fade;
+  };
+  for (const Case& item :
+       {Case{sun(), 1, 0}, Case{sun(), 3, 0}, Case{sun(), 3, 0.2}, Case{point(), 1, 0}, Case{spot(), 1, 0}})
+    for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear})
+      for (const int terms : {1, 4, 7}) {
+        CAPTURE(static_cast<int>(item.light.kind), item.cascades, item.fade, static_cast<int>(filter), terms);
+        tests::ShaftRig rig(72, 48);
+        setMedium(rig, {0.01F, 0.03F, 0.06F});
+        Light light = item.light;
+        light.cascadeFade = item.fade;
+        if (item.cascades > 1) light.shadow.views = tests::shadowViews(light, item.cascades);
+        rig.addLight(light, 128, true);
+        Settings& settings = rig.scene.frame.settings;
+        settings.shadowFilter = filter;
+        settings.lowRankTerms = terms;
+        settings.minMaxTree = false; // texel by texel
+        const reference::Image texels = rig.picture(Technique::LowRank);
+        settings.minMaxTree = true;
+        const reference::Image sums = rig.picture(Technique::LowRank);
+        CHECK(hasPass("light 0 tint sums"));
+        // A light ray is told by its slice's row, up to half a pixel from the pixel's own ray.
+        CHECK(tests::errorWhere(sums, texels, kEverywhere) <= 2e-3);
+      }
+}
+
+TEST_CASE("an orthographic camera has no sums of tints: its rays cross a light ray at different distances") {
+  tests::ShaftRig rig(72, 48);
+  setMedium(rig, {0.03F, 0.03F, 0.03F});
+  tests::DepthConvention orthographic;
+  orthographic.orthographic = true;
+  rig.setConvention(orthographic);
+  rig.addLight(sun(), 128, true);
+  const reference::Image truth = rig.picture(Technique::Tree);
+  CHECK(errorOf(rig, truth, 8) <= 0.005);
+  CHECK_FALSE(hasPass("light 0 tint sums"));
 }
