@@ -157,7 +157,8 @@ enum class Technique {
   Exact,    ///< every shadow texel along every pixel's ray, closed form or quadrature per lit span: the reference
   Tree,     ///< every pixel along its nearest slice's row, skipping by a min/max tree (Chen 2011)
   Epipolar, ///< march samples along epipolar slices, interpolated and unwarped (Yusov 2013)
-  LowRank,  ///< as Tree, lit spans integrated by a low-rank approximation of the airlight (Chen 2011), for comparison
+  LowRank,  ///< as Tree, lit spans integrated by a low-rank approximation of the airlight (Chen 2011): for fine glass,
+            ///< and to compare
 };
 
 enum class ShadowFilter {
