@@ -74,6 +74,8 @@ struct Camera {
 struct SceneDepth {
   std::uint32_t texture = 0; ///< GL_TEXTURE_2D or GL_TEXTURE_2D_MULTISAMPLE, a depth format or R32F, level 0
   bool multisampled = false; ///< true for GL_TEXTURE_2D_MULTISAMPLE; inscatter is then the mean over a pixel's samples
+  std::uint64_t version =
+      0; ///< of what the texture holds, for Frame::reuse: any number that differs says it changed; 0: not known
 };
 
 enum class LightKind { Directional, Point, Spot };
@@ -95,6 +97,7 @@ struct ShadowMap {
   ClipDepth clipDepth = ClipDepth::NegativeOneToOne;
   std::vector<ShadowView>
       views; ///< 1 to 6: 1-4 cascades (finest first) for a directional light, 1 for a spot, 6 for a point
+  std::uint64_t version = 0; ///< of what the texture and the glass map hold, as SceneDepth::version
 };
 
 /// Stained glass seen from the light through the same views as the shadow map. Light is tinted behind the glass.
@@ -227,6 +230,38 @@ struct Settings {
 /// The settings of a profile. Reference is Technique::Exact.
 Settings settingsOf(Profile profile);
 
+/// How a frame says what changed in the depth buffer and in the shadow and glass maps since its view's last frame.
+enum class Changes {
+  Unknown, ///< anything may have: the frame is drawn in full, and nothing is kept of it
+  Detect,  ///< the effect compares them with the last frame's, but for those whose versions say that nothing changed
+  Objects, ///< only what Frame::objects names; versions are not looked at
+};
+
+/// Temporal reuse (Lin et al. 2013): light of the last frame is kept where nothing has changed. A frame that reuses is
+/// what it would be in full, to rounding. Camera, medium, settings, lights and sizes are compared by the effect: what a
+/// change of them touches is drawn anew. Only Technique::Epipolar redraws parts of a picture; by the other techniques,
+/// with a finite Settings::spreadThreshold or a multisampled depth any change redraws all of it, and a debug view
+/// always.
+struct Reuse {
+  Changes changes = Changes::Unknown;
+  std::uint64_t view =
+      0; ///< which of the engine's views this is: each keeps a picture of its own, of the last 4 that were drawn
+  std::uint64_t frame =
+      0; ///< Changes::Objects: counts the view's frames; unless it is one more than at the last, all is drawn
+  /// Share of the slices of a light over which a change redraws all; where that goes on, frames are drawn in full and
+  /// nothing is kept of them, up to 16 at a time; 0 to 1.
+  float fullShare = 0.6F;
+  int refreshFrames =
+      0; ///< redraw every slice once in so many frames, a part of them in each frame; 0: never; at most 65536
+};
+
+/// A box that holds all of an object that moved, appeared or vanished, in the last frame and in this one. The same
+/// box twice for one that was, or is, in one of the two only.
+struct MovingObject {
+  Mat4 worldFromBox = kIdentity;     ///< places the cube from -1 to 1 around the object: affine, invertible
+  Mat4 lastWorldFromBox = kIdentity; ///< as it was in the view's last frame
+};
+
 /// Textures of the engine's own to write instead of, or besides, blending into Frame::colour. GL_TEXTURE_2D, a float
 /// colour format (RGBA16F, RGBA32F, R11F_G11F_B10F, RGB16F, RGB32F), the size of Frame::width x height.
 struct Output {
@@ -246,6 +281,8 @@ struct Frame {
   Medium medium;
   Settings settings;
   Output output;
+  Reuse reuse;
+  std::vector<MovingObject> objects; ///< for Changes::Objects: all that moved since the view's last frame
 };
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -270,6 +307,9 @@ struct Statistics {
   /// marched at once; march samples that are integrated together, up to four of a slice, count as one. Reading it waits
   /// for the GPU.
   std::uint64_t marchedSamples = 0;
+  /// Share of the slices, over all lights, that were marched: 1 for a frame drawn in full, 0 for one that only
+  /// composites what is kept. With Changes::Detect reading it waits for the GPU.
+  double redrawnShare = 1;
   /// With View::NodeVisits what that view shows, as a mean over the image: nodes and groups of texels that a ray looks
   /// at, in all shadow views of the first light. Else 0.
   double visitsPerRay = 0;
