@@ -52,4 +52,5 @@ UNIFORM_BLOCK(EpipolarBlock) {
   vec4 lowRankLight;  // extent of the grid of light rays; y: 1 if each slice has factors of its own; z: where the grid begins
   ivec4 grid;         // slices, samples, texels of a row, levels of the tree or 0: none
   ivec4 march;        // shadow views of a draw: the first, how many; z: 1 for the draw that brings what is outside all views; w: of the light
+  ivec4 refresh;      // temporal reuse: slices that are drawn anew though nothing has changed: the first, one past the last
 };

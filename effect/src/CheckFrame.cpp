@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace tyndall {
 
@@ -205,6 +206,30 @@ Status checkSettings(const Settings& settings) {
   return {};
 }
 
+Status checkReuse(const Frame& frame) {
+  const Reuse& reuse = frame.reuse;
+  if (reuse.changes < Changes::Unknown || reuse.changes > Changes::Objects)
+    return invalid("reuse.changes", std::to_string(static_cast<int>(reuse.changes)), "must be one of the enumerators");
+  if (!(reuse.fullShare >= 0 && reuse.fullShare <= 1))
+    return invalid("reuse.fullShare", text(reuse.fullShare), "must be 0 to 1");
+  if (reuse.refreshFrames < 0 || reuse.refreshFrames > 65536)
+    return invalid("reuse.refreshFrames", std::to_string(reuse.refreshFrames), "must be 0 to 65536");
+  if (reuse.changes != Changes::Objects && !frame.objects.empty())
+    return invalid("objects", std::to_string(frame.objects.size()) + " long", "only reuse.changes Objects looks at them");
+  for (std::size_t i = 0; i < frame.objects.size(); ++i) {
+    const std::string field = "objects[" + std::to_string(i) + "].";
+    const MovingObject& object = frame.objects[i];
+    for (const auto& [name, matrix] :
+         {std::pair{"worldFromBox", &object.worldFromBox}, std::pair{"lastWorldFromBox", &object.lastWorldFromBox}}) {
+      if (Status s = checkMatrix(field + name, *matrix); !s) return s;
+      const Mat4& m = *matrix;
+      if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
+        return invalid(field + name, "not affine", "its last row must be (0, 0, 0, 1)");
+    }
+  }
+  return {};
+}
+
 } // namespace
 
 Status checkValues(const Frame& frame) {
@@ -221,6 +246,7 @@ Status checkValues(const Frame& frame) {
     if (Status s = checkLight("lights[" + std::to_string(i) + "].", frame.lights[i]); !s) return s;
   if (Status s = checkMedium(frame.medium); !s) return s;
   if (Status s = checkSettings(frame.settings); !s) return s;
+  if (Status s = checkReuse(frame); !s) return s;
   return checkView(frame);
 }
 

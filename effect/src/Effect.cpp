@@ -1,8 +1,5 @@
-#include "CheckFrame.h"
-#include "PassRecorder.h"
+#include "EffectState.h"
 #include "SampleBudget.h"
-#include "Targets.h"
-#include "gl/Program.h"
 #include "gl/StateGuard.h"
 #include "optics/Blocks.h"
 #include "optics/LightVolume.h"
@@ -34,54 +31,6 @@
 namespace tyndall {
 
 static_assert(gl::kTextureUnits == static_cast<int>(gl::Unit::Upload) + 1, "the guard restores every unit of ours");
-
-struct Effect::State {
-  explicit State(const Config& config) : programs(gl), targets(gl), recorder(gl, config.timing) {}
-
-  gl::Functions gl;
-  gl::ProgramCache programs;
-  Targets targets;
-  PassRecorder recorder;
-  gl::VertexArray vertexArray;
-  gl::Framebuffer framebuffer;
-  gl::Framebuffer scratch; // for the targets of slices
-  gl::Int id = 0;          ///< kept in our sampler, where it tells this context from another with the same names
-  gl::Sampler nearestSampler;
-  std::array<gl::Buffer, gl::kUniformBindings> uniformBuffers;
-
-  // Where a frame's light goes: straight into colour, or into two textures first.
-  struct Destination {
-    gl::Uint inscatter = 0, transmittance = 0; // 0, 0: straight into colour
-    bool composite = false;                    // blend them, or show the view, into colour afterwards
-    bool direct() const { return inscatter == 0 && transmittance == 0; }
-  };
-
-  void createObjects();
-  Status checkContext() const;
-  Status renderChecked(const Frame& frame, const FrameTextures& textures);
-  Status chooseDestination(const Frame& frame, bool changesColour, Destination& destination);
-  Status attach(const Frame& frame, gl::Uint first, gl::Uint second, bool withStencil = false);
-  Status drawLights(const Frame& frame, const FrameTextures& textures, const Destination& destination);
-  Status prepareColour(const Frame& frame);
-  Status drawView(const Frame& frame, const FrameTextures& textures, const Destination& destination);
-  Status drawDifference(const Frame& frame, const FrameTextures& textures, passes::view::In& in);
-  Status drawMean(const Frame& frame, gl::Uint image, int channels, gl::Uint& mean);
-  Status readVisits(const Frame& frame, gl::Uint image);
-  Status clearView(const Frame& frame);
-  Status drawLight(const Frame& frame, const Light* light, const FrameTextures::Shadow& map,
-                   const Destination& destination, bool first, const std::string& name);
-  // Slices take one depth per pixel: a multisampled frame is rendered by exact.
-  static bool usesSlices(const Frame& frame) {
-    return frame.settings.technique != Technique::Exact && !frame.depth.multisampled;
-  }
-  static bool hasView(const Frame& frame) { return frame.settings.view != View::Composite; }
-  static bool showsSlices(const Frame& frame) {
-    return frame.settings.view >= View::Slices && frame.settings.view <= View::NodeVisits;
-  }
-  void upload(int binding, const void* data, std::size_t size);
-  passes::PassContext passContext() { return {gl, programs, nearestSampler.name()}; }
-  Status shaderError() const { return {StatusCode::ShaderError, "a shader did not build: " + programs.error()}; }
-};
 
 // ---------------------------------------------------------------------------------------------------------------------
 
@@ -125,16 +74,20 @@ Status Effect::render(const Frame& frame) {
   FrameTextures textures;
   if (Status s = checkTextures(state.gl, frame, textures); !s) return s;
   state.recorder.beginFrame();
+  state.redrawnShare = 1;
   Status status = state.renderChecked(frame, textures);
   state.targets.endFrame();
   return status;
 }
 
 Statistics Effect::statistics() {
-  std::uint64_t bytes = state_->targets.bytes() + sizeof(blocks::FrameBlock) + sizeof(blocks::LightBlock);
-  return {state_->recorder.collect(), bytes,
-          state_->programs.size(),    state_->recorder.fixupPixels(),
-          state_->recorder.marched(), state_->recorder.visitsPerRay()};
+  State& state = *state_;
+  const std::uint64_t blocks = sizeof(blocks::FrameBlock) + sizeof(blocks::LightBlock) + sizeof(blocks::EpipolarBlock);
+  if (state.redrawnShare < 0) state.redrawnShare = state.histories.of(state.lastView).redrawnShare();
+  return {state.recorder.collect(),     state.targets.bytes() + state.histories.bytes() + blocks,
+          state.programs.size(),        state.recorder.fixupPixels(),
+          state.recorder.marched(),     state.redrawnShare,
+          state.recorder.visitsPerRay()};
 }
 
 Status Effect::compileAll() {
@@ -145,7 +98,9 @@ Status Effect::compileAll() {
   for (const auto& variants : {passes::epipolar::allVariants(), passes::view::allVariants()})
     for (const gl::Variant& v : variants)
       if (!state_->programs.use(v.fragment, v.definitions, v.vertex)) return state_->shaderError();
-  if (!state_->programs.use("passes/composite.frag", {})) return state_->shaderError();
+  for (const char* fragment : {"passes/composite.frag", "passes/copyImage.frag"})
+    if (!state_->programs.use(fragment, {})) return state_->shaderError();
+  if (!state_->programs.use("passes/keepDepth.frag", {{"DEPTH_MULTISAMPLED", 0}})) return state_->shaderError();
   return {};
 }
 
@@ -188,19 +143,33 @@ Status Effect::State::renderChecked(const Frame& frame, const FrameTextures& tex
   if (!changesColour) recorder.skip("composite", "the medium neither scatters nor absorbs");
   if (!changesColour && !hasView(frame) && frame.output.inscatter == 0 && frame.output.transmittance == 0) return {};
 
+  if (frame.reuse.changes != Changes::Unknown && changesColour && !hasView(frame)) {
+    bool rests = false;
+    Status status = renderReusing(frame, textures, rests);
+    if (!rests) return status;
+  }
   Destination destination;
   if (Status s = chooseDestination(frame, changesColour, destination); !s) return s;
   if (destination.composite) // whatever refuses must do so before anything is drawn
     if (Status s = prepareColour(frame); !s) return s;
+  beginDraws(frame, textures);
+  if (Status s = drawLights(frame, textures, destination); !s) return s;
+  if (!destination.composite) return {};
+  if (hasView(frame)) return drawView(frame, textures, destination);
+
+  return composite(frame, destination);
+}
+
+blocks::FrameBlock Effect::State::beginDraws(const Frame& frame, const FrameTextures& textures) {
   gl.BindVertexArray(vertexArray.name());
   gl.Viewport(0, 0, frame.width, frame.height);
   const auto lights = static_cast<float>(std::max<std::size_t>(frame.lights.size(), 1));
   const blocks::FrameBlock block = optics::frameBlock(frame, {textures.depthSamples, textures.maxRadiance / lights});
   upload(0, &block, sizeof block);
-  if (Status s = drawLights(frame, textures, destination); !s) return s;
-  if (!destination.composite) return {};
-  if (hasView(frame)) return drawView(frame, textures, destination);
+  return block;
+}
 
+Status Effect::State::composite(const Frame& frame, const Destination& destination) {
   if (Status s = attach(frame, frame.colour, 0); !s) return s;
   const bool ok = recorder.run("composite", [&] {
     return passes::composite::run(passContext(), {destination.inscatter, destination.transmittance});
@@ -227,58 +196,6 @@ Status Effect::State::prepareColour(const Frame& frame) {
                                  : programs.use("passes/composite.frag", {}) != 0;
   if (!ok) return shaderError();
   return showsSlices(frame) ? clearView(frame) : Status{};
-}
-
-// Black, where no light is drawn or a sample lies.
-Status Effect::State::clearView(const Frame& frame) {
-  const gl::Uint view = targets.get(Target::View, frame.width, frame.height);
-  if (!view) return {StatusCode::OutOfMemory, "GL could not allocate a texture for Frame::settings.view"};
-  if (Status s = attach(frame, view, 0); !s) return s;
-  constexpr std::array<gl::Float, 4> kBlack = {0, 0, 0, 0};
-  gl.ClearBufferfv(gl::COLOR, 0, kBlack.data());
-  return {};
-}
-
-Status Effect::State::drawView(const Frame& frame, const FrameTextures& textures, const Destination& destination) {
-  passes::view::In in{frame.settings.view, destination.inscatter};
-  if (in.view == View::Transmittance) in.image = destination.transmittance;
-  if (showsSlices(frame)) in.image = targets.get(Target::View, frame.width, frame.height);
-  if (in.view == View::Difference)
-    if (Status s = drawDifference(frame, textures, in); !s) return s;
-  if (in.view == View::NodeVisits)
-    if (Status s = readVisits(frame, in.image); !s) return s;
-  if (Status s = attach(frame, frame.colour, 0); !s) return s;
-  return recorder.run("view", [&] { return passes::view::run(passContext(), in); }) ? Status{} : shaderError();
-}
-
-// Exact's inscatter, and its mean.
-Status Effect::State::drawDifference(const Frame& frame, const FrameTextures& textures, passes::view::In& in) {
-  Frame exactFrame = frame;
-  exactFrame.settings.technique = Technique::Exact;
-  in.exact = targets.get(Target::ViewExact, frame.width, frame.height);
-  if (!in.exact) return {StatusCode::OutOfMemory, "GL could not allocate a texture for Frame::settings.view"};
-  if (Status s = drawLights(exactFrame, textures, {in.exact, 0, true}); !s) return s;
-  return drawMean(frame, in.exact, 3, in.mean);
-}
-
-Status Effect::State::drawMean(const Frame& frame, gl::Uint image, int channels, gl::Uint& mean) {
-  mean = targets.get(Target::ViewMean, 1, 1);
-  const gl::Uint rowMeans = targets.get(Target::ViewRowMeans, frame.height, 1);
-  if (!mean || !rowMeans) return {StatusCode::OutOfMemory, "GL could not allocate a texture for Frame::settings.view"};
-  if (Status s = attach(frame, image, 0); !s) return s; // without a second target and a stencil
-  const passes::view::MeanIn in{image, channels, frame.height, rowMeans, mean};
-  return recorder.run("view mean", [&] { return passes::view::runMean(passContext(), in); }) ? Status{} : shaderError();
-}
-
-// Waits for the GPU, which a view to look at may.
-Status Effect::State::readVisits(const Frame& frame, gl::Uint image) {
-  gl::Uint mean = 0;
-  if (Status s = drawMean(frame, image, 1, mean); !s) return s;
-  gl::Float visits = 0;
-  passes::bindTexture(passContext(), gl::Unit::ViewMean, gl::TEXTURE_2D, mean);
-  gl.GetTexImage(gl::TEXTURE_2D, 0, gl::RED, gl::FLOAT, &visits);
-  recorder.countVisits(visits);
-  return {};
 }
 
 Status Effect::State::attach(const Frame& frame, gl::Uint first, gl::Uint second, bool withStencil) {
@@ -324,60 +241,95 @@ passes::exact::Variant variantOf(const Frame& frame, const Light* light, bool di
   return variant;
 }
 
-} // namespace
-
-Status Effect::State::drawLights(const Frame& frame, const FrameTextures& textures, const Destination& destination) {
-  std::vector<std::string> reasons; // to skip a light
-  std::vector<bool> drawn;
-  for (const Light& light : frame.lights) {
-    reasons.push_back(reasonToSkip(frame, light, destination.direct() || destination.inscatter != 0));
-    drawn.push_back(reasons.back().empty());
-  }
-  const std::vector<Settings> settings = dealSamples(frame, drawn);
-  Frame lit = frame; // for one light at a time
-  bool first = true;
-  for (std::size_t i = 0; i < frame.lights.size(); ++i) {
-    const Light& light = frame.lights[i];
-    const std::string name = (usesSlices(frame) ? "light " : "exact light ") + std::to_string(i);
-    if (!drawn[i]) {
-      recorder.skip(name, reasons[i]);
-      continue;
-    }
-    lit.settings = settings[i];
-    const FrameTextures::Shadow& map = textures.shadows[i];
-    const blocks::LightBlock block = optics::lightBlock(light, frame.camera, map.width, map.height);
-    upload(1, &block, sizeof block);
-    if (Status s = drawLight(lit, &light, map, destination, first, name); !s) return s;
-    first = false;
-  }
-  return first ? drawLight(frame, nullptr, {}, destination, true, "transmittance") : Status{};
+std::string nameOf(const Frame& frame, std::size_t light) {
+  const bool exact = frame.settings.technique == Technique::Exact || frame.depth.multisampled;
+  return (exact ? "exact light " : "light ") + std::to_string(light);
 }
 
-Status Effect::State::drawLight(const Frame& frame, const Light* light, const FrameTextures::Shadow& map,
-                                const Destination& destination, bool first, const std::string& name) {
-  using namespace passes;
+} // namespace
+
+std::vector<Effect::State::DrawnLight> Effect::State::lightsToDraw(const Frame& frame, const FrameTextures& textures,
+                                                                   bool wantsInscatter, bool direct) {
+  std::vector<bool> drawn;
+  for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+    const std::string reason = reasonToSkip(frame, frame.lights[i], wantsInscatter);
+    drawn.push_back(reason.empty());
+    if (!reason.empty()) recorder.skip(nameOf(frame, i), reason);
+  }
+  const std::vector<Settings> settings = dealSamples(frame, drawn);
+  std::vector<DrawnLight> lights;
+  for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+    const Light& light = frame.lights[i];
+    const FrameTextures::Shadow& map = textures.shadows[i];
+    if (drawn[i])
+      lights.push_back({i, nameOf(frame, i), settings[i],
+                        optics::lightBlock(light, frame.camera, map.width, map.height),
+                        variantOf(frame, &light, direct)});
+  }
+  return lights;
+}
+
+Status Effect::State::drawLights(const Frame& frame, const FrameTextures& textures, const Destination& destination) {
+  const bool direct = destination.direct();
+  const std::vector<DrawnLight> lights = lightsToDraw(frame, textures, direct || destination.inscatter != 0, direct);
+  Frame lit = frame; // for one light at a time
+  for (const DrawnLight& light : lights) {
+    const bool first = &light == &lights.front();
+    lit.settings = light.settings;
+    upload(1, &light.block, sizeof light.block);
+    if (!usesSlices(frame)) {
+      if (Status s = drawExact(lit, light, destination, first); !s) return s;
+      continue;
+    }
+    const passes::SliceInputs in = sliceInputs(lit, light, textures, destination, first);
+    if (Status s = passes::epipolar::run(passContext(), targets, recorder, scratch, in); !s) return s;
+  }
+  if (!lights.empty()) return {};
+  return drawExact(frame, {frame.lights.size(), "transmittance", {}, {}, variantOf(frame, nullptr, direct)},
+                   destination, true);
+}
+
+passes::SliceInputs Effect::State::sliceInputs(const Frame& lit, const DrawnLight& light, const FrameTextures& textures,
+                                               const Destination& destination, bool first) {
   // The frame's first draw also brings the transmittance; those after it add their light.
-  const auto attachDestination = [&](bool withStencil, bool withTransmittance) {
-    return destination.direct() ? attach(frame, frame.colour, 0, withStencil)
-                                : attach(frame, destination.inscatter,
+  const auto attachDestination = [this, &lit, &destination, first](bool withStencil, bool withTransmittance) {
+    return destination.direct() ? attach(lit, lit.colour, 0, withStencil)
+                                : attach(lit, destination.inscatter,
                                          first && withTransmittance ? destination.transmittance : 0, withStencil);
   };
-  const exact::Variant variant = variantOf(frame, light, destination.direct());
+  const auto uploadBlock = [this](int binding, const void* data, std::size_t size) { upload(binding, data, size); };
+  std::function<Status(bool)> attachView;
+  if (first && showsSlices(lit))
+    attachView = [this, &lit](bool withStencil) {
+      return attach(lit, targets.get(Target::View, lit.width, lit.height), 0, withStencil);
+    };
+  using passes::Blend;
   const Blend blend = !first ? Blend::Add : destination.direct() ? Blend::DualSource : Blend::Replace;
-  if (light && usesSlices(frame)) {
-    const auto uploadBlock = [this](int binding, const void* data, std::size_t size) { upload(binding, data, size); };
-    std::function<Status(bool)> attachView;
-    if (first && showsSlices(frame))
-      attachView = [&](bool withStencil) {
-        return attach(frame, targets.get(Target::View, frame.width, frame.height), 0, withStencil);
-      };
-    const SliceInputs in{&frame, light, map, variant, blend, name, attachDestination, attachView, uploadBlock};
-    return epipolar::run(passContext(), targets, recorder, scratch, in);
-  }
-  if (Status s = attachDestination(false, true); !s) return s;
-  const exact::In in{variant, frame.depth.texture, light, blend};
-  if (light) recorder.countMarched(static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height));
-  return recorder.run(name, [&] { return exact::run(passContext(), in); }) ? Status{} : shaderError();
+  return {&lit,
+          &lit.lights[light.index],
+          textures.shadows[light.index],
+          light.variant,
+          blend,
+          light.name,
+          attachDestination,
+          attachView,
+          uploadBlock};
+}
+
+// Also the transmittance alone, of a light with the index past the last.
+Status Effect::State::drawExact(const Frame& frame, const DrawnLight& light, const Destination& destination,
+                                bool first) {
+  const bool direct = destination.direct();
+  if (Status s = direct ? attach(frame, frame.colour, 0)
+                        : attach(frame, destination.inscatter, first ? destination.transmittance : 0);
+      !s)
+    return s;
+  const Light* source = light.index < frame.lights.size() ? &frame.lights[light.index] : nullptr;
+  using passes::Blend;
+  const Blend blend = !first ? Blend::Add : direct ? Blend::DualSource : Blend::Replace;
+  const passes::exact::In in{light.variant, frame.depth.texture, source, blend};
+  if (source) recorder.countMarched(static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height));
+  return recorder.run(light.name, [&] { return passes::exact::run(passContext(), in); }) ? Status{} : shaderError();
 }
 
 void Effect::State::upload(int binding, const void* data, std::size_t size) {

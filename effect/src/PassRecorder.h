@@ -54,6 +54,18 @@ public:
     return takeCount();
   }
 
+  /// Draws, and has a query count how many fragments were written, without waiting for it. False while a query of the
+  /// engine's own is under way; draws all the same.
+  template <typename Draw>
+  bool countInto(const gl::Query& query, Draw&& draw) {
+    gl::Int busy = 0;
+    gl_.GetQueryiv(gl::SAMPLES_PASSED, gl::CURRENT_QUERY, &busy);
+    if (busy == 0) gl_.BeginQuery(gl::SAMPLES_PASSED, query.name());
+    draw();
+    if (busy == 0) gl_.EndQuery(gl::SAMPLES_PASSED);
+    return busy == 0;
+  }
+
   /// Passes of the frame in order; waits for timer queries.
   std::vector<PassStatistics> collect();
 

@@ -1,7 +1,7 @@
 // Row depths: the shadow map along each slice, one texel a step, four steps a fragment (Chen 2011, 3.2).
 // Reads the slice table and the shadow map (glass map) of the views of a draw. Writes rowDepths: texels / 4 x rows, RGBA16 or
 // RGBA32F, coded: four depths or, with the 2x2 filter or glass, the group's split (lib/split.glsl); then also rowShares,
-// its average. What lies behind a row's end is not read.
+// its average, and with ROW_HASHES, for temporal reuse, rowHashes, RG32F. What lies behind a row's end is not read.
 #include "shared.glsl"
 #include "lib/slices.glsl"
 #include "lib/rows.glsl"
@@ -15,6 +15,9 @@ float coded(float depth) { return depth > 1e38 ? rowCode.z : depth * rowCode.x +
 #if FILTER_BILINEAR || GLASS
 
 layout(location = 1) out vec4 outShare;
+#ifdef ROW_HASHES
+layout(location = 2) out vec4 outHash; // of all that decides, to tell a change by: a group's split and share may hide it
+#endif
 
 // What decides at one sampling point: the texels around it (one of them, unfiltered), each dark behind `caster` and, with
 // glass, tinted behind `pane`.
@@ -82,6 +85,28 @@ void addTints(Point point, float middle, int view, inout Share share) {
 
 #endif
 
+#ifdef ROW_HASHES
+
+void addBits(float value, inout uvec2 hash) {
+  hash = (hash ^ floatBitsToUint(value)) * uvec2(16777619u, 2654435761u);
+  hash ^= hash >> uvec2(15u, 13u);
+}
+
+void addHash(Point point, int view, inout uvec2 hash) {
+  for (int i = 0; i < 1 + 3 * FILTER_BILINEAR; ++i) {
+    addBits(point.caster[i], hash);
+#if GLASS
+    addBits(point.pane[i], hash);
+    vec3 tint = paneTint(cornerOf(point, i), view);
+    addBits(tint.r, hash);
+    addBits(tint.g, hash);
+    addBits(tint.b, hash);
+#endif
+  }
+}
+
+#endif
+
 // Rounded outward where depths are stored in 16 bits: the texture's own rounding then changes nothing.
 vec4 storedSplit(vec4 split) {
   vec4 scaled = split * rowCode.w;
@@ -115,6 +140,11 @@ void main() {
 #endif
   outDepths = storedSplit(split);
   outShare = vec4(vec3(share), 0.0);
+#ifdef ROW_HASHES
+  uvec2 hash = uvec2(2166136261u, 374761393u);
+  for (int k = 0; k < 4; ++k) addHash(pointAt(p + float(k) * row.zw, view), view, hash);
+  outHash = vec4(vec2(hash >> 8u), 0.0, 0.0); // 24 bits each, exact in a float
+#endif
 }
 
 #else

@@ -1,8 +1,17 @@
-// Strips: one rectangle per 64 slices (rows), as long as the fullest of them needs, in a target of slices x fragments or,
+// Strips: one rectangle per 64 slices (rows), or per 8 (CHANGED 1) and only where any has changed, as long as the fullest of them needs, in a target of slices x fragments or,
 // for the rows, fragments x rows.
 // Reads, for the rows (STRIPS_OF_ROWS 1: four texels a fragment), the slice table, or, for the extra march samples (four
-// a fragment), extraOffsets. Draws 6 vertices an instance.
+// a fragment), extraOffsets; CHANGED: changedSlices. Draws 6 vertices an instance.
 #include "shared.glsl"
+
+#ifdef CHANGED
+uniform sampler2D changedSlices;
+const int kWidth = 8;
+bool isDrawn(int line) { return texelFetch(changedSlices, ivec2(line % grid.x, 0), 0).r > 0.0; }
+#else
+const int kWidth = 64;
+bool isDrawn(int line) { return true; }
+#endif
 
 #ifdef STRIPS_OF_ROWS
 #include "lib/slices.glsl"
@@ -20,13 +29,16 @@ float room() { return float(grid.y / 4); }
 #endif
 
 void main() {
-  const int kWidth = 64;
   float fragments = 0.0;
-  for (int i = 0; i < kWidth; ++i)
-    fragments = max(fragments, fragmentsOf(min(kWidth * gl_InstanceID + i, lines() - 1)));
+  bool drawn = false;
+  for (int i = 0; i < kWidth; ++i) {
+    int line = min(kWidth * gl_InstanceID + i, lines() - 1);
+    fragments = max(fragments, fragmentsOf(line));
+    drawn = drawn || isDrawn(line);
+  }
   bool right = gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4;
   bool top = gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5;
-  vec2 corner = vec2(kWidth * (gl_InstanceID + (right ? 1 : 0)), top ? fragments : 0.0) / vec2(lines(), room());
+  vec2 corner = vec2(kWidth * (gl_InstanceID + (right ? 1 : 0)), top && drawn ? fragments : 0.0) / vec2(lines(), room());
 #ifdef STRIPS_OF_ROWS
   corner = corner.yx;
 #endif

@@ -48,6 +48,12 @@ enum class Unit : Uint {
   CoarserRed = RowShares,
   CoarserGreen = RowMeans,
   CoarserBlue = RowMoments,
+  ChangedSlices = EpipolarInscatter, ///< of temporal reuse: none of what reads them reads those
+  LastSampleEnds = Marks,
+  RowStates = RowDepths,
+  LastRowStates = RowNodes,
+  ChangedParts = Marched,
+  LastDepth = Marched,
   ViewImage = Marched, ///< debug views run after the passes that read these, or read neither
   ViewExact = Extra,
   ViewMean = EpipolarInscatter,

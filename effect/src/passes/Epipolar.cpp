@@ -1,5 +1,7 @@
 #include "passes/Epipolar.h"
 
+#include "History.h"
+#include "passes/Changes.h"
 #include "passes/Interpolate.h"
 #include "passes/March.h"
 #include "passes/MarchExtra.h"
@@ -35,32 +37,61 @@ namespace tyndall::passes::epipolar {
 
 namespace {
 
-Status runEpipolar(SliceContext& context) {
+SliceContext contextOf(const PassContext& pass, Targets& targets, PassRecorder& recorder,
+                       const gl::Framebuffer& scratch, const SliceInputs& inputs) {
+  return {pass, targets, recorder, scratch, inputs};
+}
+
+Status makeSlices(SliceContext& context) {
+  const SliceInputs& inputs = context.inputs;
+  Targets& targets = inputs.history ? inputs.history->kept : context.targets;
+  return slices::run(context.pass, targets, {inputs.frame, inputs.light, inputs.map}, context.slices);
+}
+
+// What the steps up to [interpolate] leave for those after it, and for the debug views.
+struct Interpolated {
   samples::Out samples;
   rows::Out rows;
+  gl::Uint refinedMarks = 0, inscatter = 0, mean = 0;
+};
+
+Status runToInterpolate(SliceContext& context, Interpolated& out) {
   march::Out marched;
   refine::Out refined;
   march_extra::Out extra;
   interpolate::Out interpolated;
-  if (Status s = samples::run(context, samples); !s) return s;
-  for (int draw = 0; draw < context.draws(); ++draw) {
-    if (Status s = rows::run(context, {draw}, rows); !s) return s;
-    if (Status s = march::run(context, {draw, rows, samples.ends}, marched); !s) return s;
-  }
   mean_light::Out mean;
+  if (Status s = samples::runMarks(context, out.samples); !s) return s;
+  for (int draw = 0; draw < context.draws(); ++draw) {
+    if (context.draws() > 1) // else they are at hand
+      if (Status s = rows::run(context, {draw}, out.rows); !s) return s;
+    if (Status s = march::run(context, {draw, out.rows, out.samples.ends}, marched); !s) return s;
+  }
   if (std::isfinite(context.inputs.frame->settings.spreadThreshold))
     if (Status s = mean_light::run(context, {marched.marched}, mean); !s) return s;
-  if (Status s = refine::run(context, {samples.marks, marched.marched}, refined); !s) return s;
+  if (Status s = refine::run(context, {out.samples.marks, marched.marched}, refined); !s) return s;
   for (int draw = 0; draw < context.draws(); ++draw) {
     if (context.draws() > 1) // only the last draw's rows are at hand
-      if (Status s = rows::run(context, {draw}, rows); !s) return s;
-    const march_extra::In in{draw, rows, samples.ends, refined.marks, refined.offsets};
+      if (Status s = rows::run(context, {draw}, out.rows); !s) return s;
+    const march_extra::In in{draw, out.rows, out.samples.ends, refined.marks, refined.offsets};
     if (Status s = march_extra::run(context, in, extra); !s) return s;
   }
-  const interpolate::In in{samples.ends, refined.marks, refined.offsets, marched.marched, extra};
+  const interpolate::In in{out.samples.ends, refined.marks, refined.offsets, marched.marched, extra};
   if (Status s = interpolate::run(context, in, interpolated); !s) return s;
-  if (Status s = unwarp::run(context, {interpolated.inscatter, mean.mean, rows}); !s) return s;
-  return slice_view::run(context, {samples.ends, samples.marks, refined.marks});
+  out.refinedMarks = refined.marks;
+  out.inscatter = interpolated.inscatter;
+  out.mean = mean.mean;
+  return {};
+}
+
+Status runEpipolar(SliceContext& context) {
+  Interpolated made;
+  if (Status s = samples::runEnds(context, made.samples); !s) return s;
+  if (context.draws() == 1)
+    if (Status s = rows::run(context, {0}, made.rows); !s) return s;
+  if (Status s = runToInterpolate(context, made); !s) return s;
+  if (Status s = unwarp::run(context, {made.inscatter, made.mean, made.rows}); !s) return s;
+  return slice_view::run(context, {made.samples.ends, made.samples.marks, made.refinedMarks});
 }
 
 Status runTree(SliceContext& context) {
@@ -68,27 +99,113 @@ Status runTree(SliceContext& context) {
   return slice_view::run(context, {});
 }
 
+// Sample ends and row depths of this frame, beside the last one's, and which slices differ.
+Status makeAndCompare(SliceContext& context, Interpolated& made, int frame) {
+  LightHistory& history = *context.inputs.history;
+  changes::In in;
+  made.samples.ends = history.sampleEnds;
+  made.rows = history.row;
+  if (history.comparesEnds) {
+    history.endsSide = 1 - history.endsSide;
+    if (Status s = samples::runEnds(context, made.samples); !s) return s;
+    in.sampleEnds = made.samples.ends;
+    in.lastSampleEnds = history.sampleEnds;
+  }
+  if (history.comparesRows) {
+    history.rowsSide = 1 - history.rowsSide;
+    if (Status s = rows::runDepths(context, {0, false, true}, made.rows); !s) return s;
+    const bool hashed = made.rows.hashes != 0;
+    in.rows = hashed ? made.rows.hashes : made.rows.depths;
+    in.lastRows = hashed ? history.row.hashes : history.row.depths;
+  }
+  if (Status s = changes::compare(context, in, frame); !s) return s;
+  return history.comparesRows ? rows::runTree(context, {0}, made.rows) : Status{};
+}
+
+// The same of what has moved, in place.
+Status makeMoved(SliceContext& context, Interpolated& made) {
+  if (Status s = samples::runEnds(context, made.samples); !s) return s;
+  return context.draws() == 1 ? rows::run(context, {0}, made.rows) : Status{};
+}
+
+// All of them; what the next frame compares with its own is kept, the rest of what was kept given up.
+Status makeAll(SliceContext& context, Interpolated& made) {
+  LightHistory& history = *context.inputs.history;
+  const bool detects = context.inputs.frame->reuse.changes == Changes::Detect;
+  history.slices = history.changed = context.slices.count;
+  context.changed = 0;
+  if (Status s = samples::runEnds(context, made.samples); !s) return s;
+  return context.draws() == 1 ? rows::run(context, {0, false, detects}, made.rows) : Status{};
+}
+
 } // namespace
 
 Status run(const PassContext& pass, Targets& targets, PassRecorder& recorder, const gl::Framebuffer& scratch,
            const SliceInputs& inputs) {
-  SliceContext context{pass, targets, recorder, scratch, inputs};
-  const slices::In in{inputs.frame, inputs.light, inputs.map};
-  if (Status s = slices::run(pass, targets, in, context.slices); !s) return s;
+  SliceContext context = contextOf(pass, targets, recorder, scratch, inputs);
+  if (Status s = makeSlices(context); !s) return s;
   return inputs.frame->settings.technique == Technique::Epipolar ? runEpipolar(context) : runTree(context);
+}
+
+Status prepare(const PassContext& pass, Targets& targets, PassRecorder& recorder, const gl::Framebuffer& scratch,
+               const SliceInputs& inputs, int frame) {
+  LightHistory& history = *inputs.history;
+  if (history.redraw == Redraw::Nothing) {
+    history.slices = history.geometry.count;
+    recorder.skip(inputs.name, "nothing has changed: its slices are kept");
+    return {};
+  }
+  SliceContext context = contextOf(pass, targets, recorder, scratch, inputs);
+  Interpolated made;
+  if (Status s = makeSlices(context); !s) return s;
+  const bool detects = inputs.frame->reuse.changes == Changes::Detect;
+  if (history.redraw == Redraw::Part) {
+    const bool filtered = inputs.variant.glass || inputs.variant.bilinear;
+    if (detects && history.comparesRows && (context.draws() > 1 || (filtered && history.row.hashes == 0)))
+      history.redraw = Redraw::All; // the last frame's rows are not at hand
+    else if (!detects)
+      if (Status s = changes::findMoved(context, frame); !s) return s;
+  }
+  Status prepared = history.redraw == Redraw::All ? makeAll(context, made)
+                    : detects                     ? makeAndCompare(context, made, frame)
+                                                  : makeMoved(context, made);
+  if (prepared) prepared = runToInterpolate(context, made);
+  if (!prepared) return prepared;
+  if (!detects) made.rows.hashes = 0; // not the whole row's
+  history.geometry = std::move(context.slices);
+  history.row = made.rows;
+  history.sampleEnds = made.samples.ends;
+  history.inscatter = made.inscatter;
+  history.changedSlices = context.changed;
+  if (history.redraw == Redraw::All)
+    for (Targets* kept : {&history.kept, &history.ends[0], &history.ends[1], &history.rows[0], &history.rows[1]})
+      kept->endFrame();
+  return {};
+}
+
+Status finish(const PassContext& pass, Targets& targets, PassRecorder& recorder, const gl::Framebuffer& scratch,
+              const SliceInputs& inputs) {
+  const LightHistory& history = *inputs.history;
+  SliceContext context = contextOf(pass, targets, recorder, scratch, inputs);
+  context.slices = history.geometry;
+  context.selectDraw(0);
+  return unwarp::run(context, {history.inscatter, 0, history.row});
 }
 
 std::vector<gl::Variant> allVariants() {
   std::vector<gl::Variant> all = slice_view::allVariants();
-  all.push_back({"passes/offsets.frag", {}});
+  for (const gl::Variant& offsets : inSlices("passes/offsets.frag", {}))
+    all.push_back(offsets);
   for (const exact::Variant& variant : exact::allVariants()) {
     if (variant.multisampled || variant.lightKind == 3) continue;
     for (const gl::Variant& pixels : pixel_tree::variantsOf(variant))
       all.push_back(pixels);
     const gl::Definitions definitions = exact::definitionsOf(variant);
+    const auto add = [&](const std::vector<gl::Variant>& some) { all.insert(all.end(), some.begin(), some.end()); };
     for (const char* fragment : {"sampleEnds", "marks", "march", "refine", "interpolate"})
-      all.push_back({std::string("passes/") + fragment + ".frag", definitions});
-    all.push_back({"passes/marchExtra.frag", definitions, "passes/strips.vert"});
+      add(inSlices(("passes/" + std::string(fragment) + ".frag").c_str(), definitions));
+    add(inStrips("passes/marchExtra.frag", definitions));
+    add(changes::variantsOf(variant));
     for (const gl::Variant& unwarped : unwarp::variantsOf(variant))
       all.push_back(unwarped);
     for (const gl::Variant& mean : mean_light::variantsOf(variant))

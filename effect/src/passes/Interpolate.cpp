@@ -16,7 +16,7 @@ Status run(SliceContext& context, const In& in, Out& out) {
   }
   setBlend(context.pass, Blend::Replace);
   if (Status s = context.target(Target::EpipolarInscatter, slices.count, slices.samples, out.inscatter); !s) return s;
-  return context.draw("interpolate", "passes/interpolate.frag", context.definitions);
+  return context.drawSlices("interpolate", "passes/interpolate.frag", context.definitions);
 }
 
 } // namespace tyndall::passes::interpolate

@@ -23,12 +23,10 @@ Status run(SliceContext& context, const In& in, Out& out) {
   rows::bind(context, in.rows);
   setBlend(context.pass, in.draw == 0 ? Blend::Replace : Blend::AddAll);
   if (Status s = attachTargets(context, out); !s) return s;
-  const bool ok = context.recorder.runCounted(context.inputs.name + " march extra", [&] {
-    return drawStrips(context.pass, "passes/strips.vert", context.slices.count, "passes/marchExtra.frag",
-                      context.definitions);
-  });
+  Status status =
+      context.drawStrips("march extra", "passes/marchExtra.frag", context.definitions, context.slices.count, true);
   context.detachMore(1);
-  return ok ? Status{} : context.shaderError();
+  return status;
 }
 
 } // namespace tyndall::passes::march_extra

@@ -30,11 +30,9 @@ bool drawFullScreen(const PassContext& context, const std::string& fragment, con
   return true;
 }
 
-bool drawStrips(const PassContext& context, const std::string& vertex, int lines, const std::string& fragment,
-                const gl::Definitions& definitions) {
-  if (context.programs.use(fragment, definitions, vertex) == 0) return false;
-  constexpr int kLines = 64; // of a strip
-  context.gl.DrawArraysInstanced(gl::TRIANGLES, 0, 6, (lines + kLines - 1) / kLines);
+bool drawStrips(const PassContext& context, const gl::Variant& variant, int lines, int linesPerStrip) {
+  if (context.programs.use(variant.fragment, variant.definitions, variant.vertex) == 0) return false;
+  context.gl.DrawArraysInstanced(gl::TRIANGLES, 0, 6, (lines + linesPerStrip - 1) / linesPerStrip);
   return true;
 }
 

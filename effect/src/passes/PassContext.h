@@ -29,7 +29,6 @@ void setBlend(const PassContext& context, Blend blend);
 bool drawFullScreen(const PassContext& context, const std::string& fragment, const gl::Definitions& definitions);
 
 /// Draws instances of the six vertices of a vertex shader of glsl/passes: one for 64 lines, slices or rows.
-bool drawStrips(const PassContext& context, const std::string& vertex, int lines, const std::string& fragment,
-                const gl::Definitions& definitions);
+bool drawStrips(const PassContext& context, const gl::Variant& variant, int lines, int linesPerStrip);
 
 } // namespace tyndall::passes

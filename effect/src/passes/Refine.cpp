@@ -9,10 +9,10 @@ Status run(SliceContext& context, const In& in, Out& out) {
   context.bind(gl::Unit::Marched, in.marched);
   setBlend(context.pass, Blend::Replace);
   if (Status s = context.target(Target::RefinedMarks, slices.count, slices.samples / 64, out.marks); !s) return s;
-  if (Status s = context.draw("refine", "passes/refine.frag", context.definitions); !s) return s;
+  if (Status s = context.drawSlices("refine", "passes/refine.frag", context.definitions); !s) return s;
   context.bind(gl::Unit::Marks, out.marks);
   if (Status s = context.target(Target::ExtraOffsets, slices.count, slices.samples / 64 + 1, out.offsets); !s) return s;
-  return context.draw("offsets", "passes/offsets.frag", {});
+  return context.drawSlices("offsets", "passes/offsets.frag", {});
 }
 
 } // namespace tyndall::passes::refine

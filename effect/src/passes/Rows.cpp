@@ -30,54 +30,69 @@ Status targets(SliceContext& context, const TreeTargets& which, int width, int d
   return context.attachMore(2, which.moments, width, context.rowRoom(), out.moments);
 }
 
-// Draws what has one fragment for four texels of a row, where rows are.
-gl::Variant inStrips(const char* fragment, gl::Definitions definitions) {
+gl::Definitions inStripsOfRows(gl::Definitions definitions) {
   definitions.emplace_back("STRIPS_OF_ROWS", 1);
-  return {fragment, definitions, "passes/strips.vert"};
+  return definitions;
 }
 
-Status drawStrips(SliceContext& context, const char* name, const char* fragment, const gl::Definitions& definitions) {
-  const gl::Variant v = inStrips(fragment, definitions);
-  const bool ok = context.recorder.run(context.inputs.name + " " + name, [&] {
-    return drawStrips(context.pass, v.vertex, context.rows(), v.fragment, v.definitions);
-  });
-  return ok ? Status{} : context.shaderError();
+gl::Definitions hashing(gl::Definitions definitions) {
+  definitions.emplace_back("ROW_HASHES", 1);
+  return definitions;
 }
+
+bool hasShares(const exact::Variant& variant) { return variant.glass || variant.bilinear; }
 
 } // namespace
 
 Status run(SliceContext& context, const In& in, Out& out) {
+  if (Status s = runDepths(context, in, out); !s) return s;
+  return runTree(context, in, out);
+}
+
+Status runDepths(SliceContext& context, const In& in, Out& out) {
   if (context.views() == 0) return {};
-  const int room = context.slices.rowTexels, drawn = context.slices.block.grid.z, levels = context.slices.block.grid.w;
-  const gl::Definitions definitions = definitionsOf(context.inputs.variant, in.tintSums);
+  const int room = context.slices.rowTexels, drawn = context.slices.block.grid.z;
+  gl::Definitions definitions = inStripsOfRows(definitionsOf(context.inputs.variant, in.tintSums));
   context.selectDraw(in.draw);
   context.bindSlices();
   context.bindMaps();
   setBlend(context.pass, Blend::Replace);
   if (Status s = target(context, Target::RowDepths, room / 4, drawn / 4, out.depths); !s) return s;
-  const bool hasShares = context.inputs.variant.glass || context.inputs.variant.bilinear;
-  if (hasShares)
+  if (hasShares(context.inputs.variant)) {
     if (Status s = context.attachMore(1, Target::RowShares, room / 4, context.rowRoom(), out.shares); !s) return s;
-  Status drawnDepths = drawStrips(context, "rows", "passes/rowDepths.frag", definitions);
+    if (in.hashes) {
+      definitions = hashing(definitions);
+      if (Status s = context.attachMore(2, Target::RowHashes, room / 4, context.rowRoom(), out.hashes); !s) return s;
+    }
+  }
+  Status status = context.drawStrips("rows", "passes/rowDepths.frag", definitions, context.rows(), false);
   context.detachMore(1);
-  if (!drawnDepths) return drawnDepths;
+  return status;
+}
+
+Status runTree(SliceContext& context, const In& in, Out& out) {
+  if (context.views() == 0) return {};
+  const int room = context.slices.rowTexels, drawn = context.slices.block.grid.z, levels = context.slices.block.grid.w;
+  const gl::Definitions definitions = definitionsOf(context.inputs.variant, in.tintSums);
   if (levels == 0) {
     context.recorder.skip(context.inputs.name + " tree", "settings.minMaxTree is false");
     out.tree = out.means = out.depths; // bound, never read
     return {};
   }
   Out finest;
+  context.bindSlices();
+  setBlend(context.pass, Blend::Replace);
   context.bind(gl::Unit::RowDepths, out.depths);
-  if (hasShares) context.bind(gl::Unit::RowShares, out.shares);
+  if (out.shares) context.bind(gl::Unit::RowShares, out.shares);
   constexpr TreeTargets kFinest{Target::RowNodes, Target::RowNodeMeans, Target::RowNodeMoments};
   constexpr TreeTargets kAll{Target::RowTree, Target::RowMeans, Target::RowMoments};
   if (Status s = targets(context, kFinest, room / 16, drawn / 16, finest); !s) return s;
-  if (Status s = context.draw("nodes", "passes/rowNodes.frag", definitions); !s) return s;
+  if (Status s = context.drawRows("nodes", "passes/rowNodes.frag", definitions); !s) return s;
   context.bind(gl::Unit::RowNodes, finest.tree);
   context.bind(gl::Unit::RowNodeMeans, finest.means);
   if (finest.moments) context.bind(gl::Unit::RowNodeMoments, finest.moments);
   if (Status s = targets(context, kAll, treeNodes(room, 2, levels), treeNodes(drawn, 2, levels), out); !s) return s;
-  Status drawnTree = context.draw("tree", "passes/rowTree.frag", definitions);
+  Status drawnTree = context.drawRows("tree", "passes/rowTree.frag", definitions);
   context.detachMore(1);
   return drawnTree;
 }
@@ -92,7 +107,10 @@ Status runPairs(SliceContext& context, const In& in, Out& out) {
   setBlend(context.pass, Blend::Replace);
   const int groups = drawn / 4;
   if (Status s = target(context, Target::PairTree, treeNodes(room, 1, levels), groups, pairs); !s) return s;
-  if (Status s = drawStrips(context, "pair groups", "passes/pairTree.frag", context.definitions); !s) return s;
+  if (Status s = context.drawStrips("pair groups", "passes/pairTree.frag", inStripsOfRows(context.definitions),
+                                    context.rows(), false);
+      !s)
+    return s;
   context.gl.Viewport(groups, 0, treeNodes(drawn, 2, levels), context.rows());
   if (Status s = context.draw("pair tree", "passes/pairTree.frag", context.definitions); !s) return s;
   out.tree = pairs;
@@ -107,13 +125,21 @@ gl::Definitions definitionsOf(const exact::Variant& variant, bool tintSums) {
 
 std::vector<gl::Variant> variantsOf(const exact::Variant& variant) {
   if (variant.shadowViews == 0) return {};
+  std::vector<gl::Variant> all;
+  const auto add = [&](const std::vector<gl::Variant>& some) { all.insert(all.end(), some.begin(), some.end()); };
   const gl::Definitions pairs = exact::definitionsOf(variant);
-  std::vector<gl::Variant> all = {inStrips("passes/pairTree.frag", pairs), {"passes/pairTree.frag", pairs}};
-  for (int sums = 0; sums <= (variant.glass ? 1 : 0); ++sums) {
-    const gl::Definitions definitions = definitionsOf(variant, sums == 1);
-    all.push_back(inStrips("passes/rowDepths.frag", definitions));
-    all.push_back({"passes/rowNodes.frag", definitions});
-    all.push_back({"passes/rowTree.frag", definitions});
+  all.push_back(inStrips("passes/pairTree.frag", inStripsOfRows(pairs))[0]);
+  all.push_back({"passes/pairTree.frag", pairs});
+  const gl::Definitions definitions = definitionsOf(variant, false), depths = inStripsOfRows(definitions);
+  add(inStrips("passes/rowDepths.frag", depths));
+  if (hasShares(variant)) add(inStrips("passes/rowDepths.frag", hashing(depths)));
+  add(inRows("passes/rowNodes.frag", definitions));
+  add(inRows("passes/rowTree.frag", definitions));
+  if (variant.glass) {
+    const gl::Definitions sums = definitionsOf(variant, true);
+    all.push_back(inStrips("passes/rowDepths.frag", inStripsOfRows(sums))[0]);
+    all.push_back({"passes/rowNodes.frag", sums});
+    all.push_back({"passes/rowTree.frag", sums});
   }
   return all;
 }

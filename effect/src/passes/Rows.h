@@ -9,17 +9,22 @@ namespace tyndall::passes::rows {
 struct In {
   int draw = 0;
   bool tintSums = false; ///< splits for the walk that uses sums of tints (glass): behind all panes, before all casters
+  bool hashes = false;   ///< Out::hashes are wanted, too
 };
 
 struct Out {
   gl::Uint depths = 0; ///< 0: the light has no shadow map
   gl::Uint shares = 0; ///< of groups of texels; 0 where a texel is either lit or dark
+  gl::Uint hashes = 0; ///< temporal reuse: what tells a change where depths and shares may hide it; else 0
   gl::Uint tree = 0;
   gl::Uint means = 0;
   gl::Uint moments = 0; ///< 0 without glass: beside the means
 };
 
+/// Depths, then the tree.
 Status run(SliceContext& context, const In& in, Out& out);
+Status runDepths(SliceContext& context, const In& in, Out& out);
+Status runTree(SliceContext& context, const In& in, Out& out);
 
 /// The tree over each two neighbouring rows, in place of out.tree, for rays that run between them.
 Status runPairs(SliceContext& context, const In& in, Out& out);

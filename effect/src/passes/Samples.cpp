@@ -2,17 +2,23 @@
 
 namespace tyndall::passes::samples {
 
-Status run(SliceContext& context, Out& out) {
+Status runEnds(SliceContext& context, Out& out) {
   const slices::Out& slices = context.slices;
   context.selectDraw(0);
   context.bindSceneDepth();
   context.bindSlices();
   setBlend(context.pass, Blend::Replace);
   if (Status s = context.target(Target::SampleEnds, slices.count, slices.samples, out.ends); !s) return s;
-  if (Status s = context.draw("sample ends", "passes/sampleEnds.frag", context.definitions); !s) return s;
+  return context.drawSlices("sample ends", "passes/sampleEnds.frag", context.definitions);
+}
+
+Status runMarks(SliceContext& context, Out& out) {
+  const slices::Out& slices = context.slices;
+  context.bindSlices();
   context.bind(gl::Unit::SampleEnds, out.ends);
+  setBlend(context.pass, Blend::Replace);
   if (Status s = context.target(Target::Marks, slices.count, slices.samples / 64, out.marks); !s) return s;
-  return context.draw("marks", "passes/marks.frag", context.definitions);
+  return context.drawSlices("marks", "passes/marks.frag", context.definitions);
 }
 
 } // namespace tyndall::passes::samples

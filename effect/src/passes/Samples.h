@@ -11,6 +11,8 @@ struct Out {
   gl::Uint marks = 0;
 };
 
-Status run(SliceContext& context, Out& out);
+/// The ends of all slices, or of those that have changed.
+Status runEnds(SliceContext& context, Out& out);
+Status runMarks(SliceContext& context, Out& out);
 
 } // namespace tyndall::passes::samples

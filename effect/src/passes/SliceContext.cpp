@@ -1,5 +1,7 @@
 #include "passes/SliceContext.h"
 
+#include "History.h"
+
 #include <algorithm>
 #include <array>
 
@@ -23,6 +25,20 @@ bool isWide(const SliceContext& context, Target which) {
   }
 }
 
+constexpr const char* kChangedStrips = "passes/changedStrips.vert";
+constexpr const char* kStrips = "passes/strips.vert";
+constexpr int kStripLines = 64, kChangedLines = 8; // of a strip
+
+gl::Definitions withRows(gl::Definitions definitions) {
+  definitions.emplace_back("CHANGED_ROWS", 1);
+  return definitions;
+}
+
+gl::Definitions withChanges(gl::Definitions definitions) {
+  definitions.emplace_back("CHANGED", 1);
+  return definitions;
+}
+
 } // namespace
 
 void SliceContext::selectDraw(int draw) {
@@ -42,7 +58,7 @@ void SliceContext::bindMaps() const {
 }
 
 Status SliceContext::target(Target which, int width, int height, gl::Uint& texture) {
-  texture = targets.get(which, width, height, isWide(*this, which));
+  texture = holderOf(which).get(which, width, height, isWide(*this, which));
   if (!texture) return slices::outOfMemory();
   gl.BindFramebuffer(gl::DRAW_FRAMEBUFFER, scratch.name());
   gl.FramebufferTexture2D(gl::DRAW_FRAMEBUFFER, gl::COLOR_ATTACHMENT0, gl::TEXTURE_2D, texture, 0);
@@ -53,7 +69,7 @@ Status SliceContext::target(Target which, int width, int height, gl::Uint& textu
 }
 
 Status SliceContext::attachMore(gl::Enum index, Target which, int width, int height, gl::Uint& texture) {
-  texture = targets.get(which, width, height, isWide(*this, which));
+  texture = holderOf(which).get(which, width, height, isWide(*this, which));
   if (!texture) return slices::outOfMemory();
   gl.FramebufferTexture2D(gl::DRAW_FRAMEBUFFER, gl::COLOR_ATTACHMENT0 + index, gl::TEXTURE_2D, texture, 0);
   const std::array<gl::Enum, 3> buffers = {gl::COLOR_ATTACHMENT0, gl::COLOR_ATTACHMENT0 + 1, gl::COLOR_ATTACHMENT0 + 2};
@@ -69,6 +85,70 @@ void SliceContext::detachMore(gl::Enum kept) const {
 Status SliceContext::draw(const std::string& name, const std::string& fragment, const gl::Definitions& with) {
   const bool ok = recorder.run(inputs.name + " " + name, [&] { return drawFullScreen(pass, fragment, with); });
   return ok ? Status{} : shaderError();
+}
+
+Status SliceContext::drawSlices(const std::string& name, const std::string& fragment, const gl::Definitions& with) {
+  if (!changed) return draw(name, fragment, with);
+  bind(gl::Unit::ChangedSlices, changed);
+  const bool ok = recorder.run(inputs.name + " " + name, [&] {
+    return passes::drawStrips(pass, {fragment, with, kChangedStrips}, slices.count, kChangedLines);
+  });
+  return ok ? Status{} : shaderError();
+}
+
+Status SliceContext::drawRows(const std::string& name, const std::string& fragment, const gl::Definitions& with) {
+  if (!changed) return draw(name, fragment, with);
+  bind(gl::Unit::ChangedSlices, changed);
+  const bool ok = recorder.run(inputs.name + " " + name, [&] {
+    return passes::drawStrips(pass, {fragment, withRows(with), kChangedStrips}, rows(), kChangedLines);
+  });
+  return ok ? Status{} : shaderError();
+}
+
+Status SliceContext::drawStrips(const std::string& name, const std::string& fragment, const gl::Definitions& with,
+                                int lines, bool counted) {
+  if (changed) bind(gl::Unit::ChangedSlices, changed);
+  const gl::Variant variant{fragment, changed ? withChanges(with) : with, kStrips};
+  const auto strips = [&] { return passes::drawStrips(pass, variant, lines, changed ? kChangedLines : kStripLines); };
+  const std::string title = inputs.name + " " + name;
+  const bool ok = counted ? recorder.runCounted(title, strips) : recorder.run(title, strips);
+  return ok ? Status{} : shaderError();
+}
+
+// What the next frame needs is the light's own. Rows that do not stand in one texture are made anew.
+Targets& SliceContext::holderOf(Target which) const {
+  LightHistory* history = inputs.history;
+  if (!history) return targets;
+  switch (which) {
+  case Target::SampleEnds:
+    return history->ends[history->endsSide];
+  case Target::RowDepths:
+  case Target::RowShares:
+  case Target::RowHashes:
+    return draws() == 1 ? history->rows[history->rowsSide] : targets;
+  case Target::RowTree:
+  case Target::RowMeans:
+  case Target::RowMoments:
+    return draws() == 1 ? history->kept : targets;
+  case Target::SliceTable:
+  case Target::EpipolarInscatter:
+  case Target::ChangedSlices:
+    return history->kept;
+  default:
+    return targets;
+  }
+}
+
+std::vector<gl::Variant> inSlices(const char* fragment, const gl::Definitions& definitions) {
+  return {{fragment, definitions}, {fragment, definitions, kChangedStrips}};
+}
+
+std::vector<gl::Variant> inRows(const char* fragment, const gl::Definitions& definitions) {
+  return {{fragment, definitions}, {fragment, withRows(definitions), kChangedStrips}};
+}
+
+std::vector<gl::Variant> inStrips(const char* fragment, const gl::Definitions& definitions) {
+  return {{fragment, definitions, kStrips}, {fragment, withChanges(definitions), kStrips}};
 }
 
 } // namespace tyndall::passes

@@ -9,6 +9,10 @@
 
 #include <functional>
 
+namespace tyndall {
+struct LightHistory;
+}
+
 namespace tyndall::passes {
 
 /// The light that goes through the pipeline, and where it goes to.
@@ -24,6 +28,10 @@ struct SliceInputs {
   /// Binds the framebuffer of the debug view of slices; empty unless this light is to be shown.
   std::function<Status(bool withStencil)> attachView;
   std::function<void(int binding, const void* data, std::size_t size)> upload;
+  /// Temporal reuse: what is kept of the light; null: nothing is.
+  LightHistory* history = nullptr;
+  bool masked = false;            ///< only pixels that the stencil marks are to be drawn (passes/Changes.h)
+  std::uint64_t maskedPixels = 0; ///< and how many they are
 };
 
 struct SliceContext {
@@ -35,6 +43,7 @@ struct SliceContext {
   const gl::Functions& gl = pass.gl;
   gl::Definitions definitions = exact::definitionsOf(inputs.variant);
   slices::Out slices = {};
+  gl::Uint changed = 0; ///< flags of the slices that are drawn, slices x 1; 0: all are
 
   /// True if the epipolar textures hold three channels.
   bool isColoured() const { return !inputs.variant.monochrome || inputs.variant.glass; }
@@ -66,8 +75,21 @@ struct SliceContext {
 
   /// Draws the full-screen triangle as a pass of the light.
   Status draw(const std::string& name, const std::string& fragment, const gl::Definitions& with);
+  /// Draws those that have changed, if that is known: slices along x, rows along y, or, where each has a length of its
+  /// own, strips (passes/strips.vert).
+  Status drawSlices(const std::string& name, const std::string& fragment, const gl::Definitions& with);
+  Status drawRows(const std::string& name, const std::string& fragment, const gl::Definitions& with);
+  Status drawStrips(const std::string& name, const std::string& fragment, const gl::Definitions& with, int lines,
+                    bool counted);
+
+  Targets& holderOf(Target which) const;
 
   Status shaderError() const { return {StatusCode::ShaderError, "a shader did not build: " + pass.programs.error()}; }
 };
+
+/// The same program over all, and over what has changed.
+std::vector<gl::Variant> inSlices(const char* fragment, const gl::Definitions& definitions);
+std::vector<gl::Variant> inRows(const char* fragment, const gl::Definitions& definitions);
+std::vector<gl::Variant> inStrips(const char* fragment, const gl::Definitions& definitions);
 
 } // namespace tyndall::passes

@@ -1,24 +1,23 @@
 #include "passes/Unwarp.h"
 
+#include "passes/Changes.h"
+#include "passes/StencilTest.h"
+
 namespace tyndall::passes::unwarp {
 
 namespace {
 
-/// The stencil test, while this lives.
-class StencilTest {
-public:
-  StencilTest(const gl::Functions& gl, gl::Enum function, gl::Int reference, gl::Enum passed) : gl_(gl) {
-    gl.Enable(gl::STENCIL_TEST);
-    gl.StencilFunc(function, reference, 0xFF);
-    gl.StencilOp(gl::KEEP, gl::KEEP, passed);
-  }
-  ~StencilTest() { gl_.Disable(gl::STENCIL_TEST); }
-  StencilTest(const StencilTest&) = delete;
-  StencilTest& operator=(const StencilTest&) = delete;
+using changes::kMasked, changes::kServed;
 
-private:
-  const gl::Functions& gl_;
-};
+// Of pixels to serve; of those that were not.
+StencilTest::Rule toServe(const SliceContext& context) {
+  if (!context.inputs.masked) return {gl::ALWAYS, kServed, 0xFF, gl::REPLACE};
+  return {gl::EQUAL, kMasked | kServed, kMasked, gl::REPLACE};
+}
+StencilTest::Rule unserved(const SliceContext& context) {
+  if (!context.inputs.masked) return {gl::EQUAL, 0, 0xFF, gl::KEEP};
+  return {gl::EQUAL, kMasked, kMasked | kServed, gl::KEEP};
+}
 
 gl::Definitions definitionsOf(const exact::Variant& variant, bool spread) {
   gl::Definitions definitions = exact::definitionsOf(variant);
@@ -30,7 +29,7 @@ gl::Definitions definitionsOf(const exact::Variant& variant, bool spread) {
 // hand, and to make them all again would take longer than every texel does.
 Status fixUpUnserved(SliceContext& context, const In& in) {
   rows::bind(context, in.rows);
-  const StencilTest test(context.gl, gl::EQUAL, 0, gl::KEEP);
+  const StencilTest test(context.gl, unserved(context));
   return context.draw("fix-up", context.draws() > 1 ? "passes/exact.frag" : "passes/pixelTree.frag",
                       context.definitions);
 }
@@ -46,7 +45,7 @@ Status fixUpBetweenSlices(SliceContext& context, const In& in) {
     context.bindSceneDepth();
     rows::bind(context, rows);
     if (Status s = context.inputs.attachDestination(true, draw == 0); !s) return s;
-    const StencilTest test(context.gl, gl::EQUAL, 0, gl::KEEP);
+    const StencilTest test(context.gl, unserved(context));
     setBlend(context.pass, draw == 0 ? context.inputs.blend : Blend::Add);
     if (Status s = context.draw("fix-up", "passes/fixup.frag", context.definitions); !s) return s;
   }
@@ -64,15 +63,17 @@ Status run(SliceContext& context, const In& in) {
   if (in.meanLight) context.bind(gl::Unit::MeanLight, in.meanLight);
   if (Status s = context.inputs.attachDestination(true, true); !s) return s;
   const gl::Int zero = 0;
-  gl.StencilMask(0xFF);
+  gl.StencilMask(context.inputs.masked ? kServed : 0xFF);
   gl.ClearBufferiv(gl::STENCIL, 0, &zero);
   setBlend(context.pass, context.inputs.blend);
   Status status;
   const std::uint64_t served = context.recorder.countWritten([&] {
-    const StencilTest test(gl, gl::ALWAYS, 1, gl::REPLACE);
+    const StencilTest test(gl, toServe(context));
     status = context.draw("unwarp", "passes/unwarp.frag", definitionsOf(context.inputs.variant, in.meanLight != 0));
   });
-  const auto pixels = static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height);
+  gl.StencilMask(0xFF);
+  const auto all = static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height);
+  const std::uint64_t pixels = context.inputs.masked ? context.inputs.maskedPixels : all;
   context.recorder.countFixup(pixels - served);
   context.recorder.countMarched(pixels - served);
   if (status && served == pixels) context.recorder.skip(context.inputs.name + " fix-up", "every pixel was served");

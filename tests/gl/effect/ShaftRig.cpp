@@ -46,7 +46,22 @@ struct Texel {
   std::array<float, 3> colour = {1, 1, 1};
 };
 
-Texel texelAt(const glm::dmat4& clipFromWorld, const glm::dmat4& worldFromClip, const glm::dvec2& ndc) {
+// As boxDistance, of the boxes and of cubes that were put between them.
+double hitDistance(const std::vector<glm::dmat4>& cubes, const glm::dvec3& origin, const glm::dvec3& direction) {
+  double nearest = boxDistance(origin, direction);
+  for (const glm::dmat4& worldFromCube : cubes) {
+    const glm::dmat4 inverse = glm::inverse(worldFromCube);
+    const glm::dvec3 from(inverse * glm::dvec4(origin, 1)), along(inverse * glm::dvec4(direction, 0));
+    const glm::dvec3 a = (-1.0 - from) / along, b = (1.0 - from) / along;
+    const glm::dvec3 enter = glm::min(a, b), leave = glm::max(a, b);
+    const double t = std::max({enter.x, enter.y, enter.z});
+    if (t > 0 && t < nearest && t <= std::min({leave.x, leave.y, leave.z})) nearest = t;
+  }
+  return nearest;
+}
+
+Texel texelAt(const std::vector<glm::dmat4>& cubes, const glm::dmat4& clipFromWorld, const glm::dmat4& worldFromClip,
+              const glm::dvec2& ndc) {
   const glm::dvec4 a = worldFromClip * glm::dvec4(ndc, -1, 1), b = worldFromClip * glm::dvec4(ndc, 1, 1);
   const glm::dvec3 origin = glm::dvec3(a) / a.w, ray = glm::dvec3(b) / b.w - origin;
   const auto depthOf = [&](double t) {
@@ -54,7 +69,7 @@ Texel texelAt(const glm::dmat4& clipFromWorld, const glm::dmat4& worldFromClip, 
     return static_cast<float>(0.5 + 0.5 * clip.z / clip.w);
   };
   Texel texel;
-  const double hit = boxDistance(origin, ray), pane = (kGlassHeight - origin.y) / ray.y;
+  const double hit = hitDistance(cubes, origin, ray), pane = (kGlassHeight - origin.y) / ray.y;
   if (hit < 1) texel.depth = depthOf(hit);
   if (!(pane > 0 && pane < 1)) return texel;
   texel.glassDepth = depthOf(pane);
@@ -63,13 +78,14 @@ Texel texelAt(const glm::dmat4& clipFromWorld, const glm::dmat4& worldFromClip, 
   return texel;
 }
 
-reference::ShadowImage castMaps(const std::vector<ShadowView>& views, int size, bool glass) {
+reference::ShadowImage castMaps(const std::vector<glm::dmat4>& cubes, const std::vector<ShadowView>& views, int size,
+                                bool glass) {
   reference::ShadowImage image{size, size, static_cast<int>(views.size()), {}, {}, {}};
   for (const ShadowView& view : views) {
     const glm::dmat4 clipFromWorld = reference::toMat4(view.clipFromWorld), inverse = glm::inverse(clipFromWorld);
     for (int y = 0; y < size; ++y)
       for (int x = 0; x < size; ++x) {
-        const Texel texel = texelAt(clipFromWorld, inverse, 2.0 * (glm::dvec2(x, y) + 0.5) / double(size) - 1.0);
+        const Texel texel = texelAt(cubes, clipFromWorld, inverse, 2.0 * (glm::dvec2(x, y) + 0.5) / double(size) - 1.0);
         image.depth.push_back(texel.depth);
         if (!glass) continue;
         image.glassDepth.push_back(texel.glassDepth);
@@ -181,7 +197,7 @@ void ShaftRig::seeBoxes() {
   for (int y = 0; y < frame.height; ++y)
     for (int x = 0; x < frame.width; ++x) {
       const reference::Ray ray = rays.ray(x, y);
-      const double hit = boxDistance(ray.origin, ray.direction);
+      const double hit = hitDistance(moving_, ray.origin, ray.direction);
       scene.distances.push_back(std::isfinite(hit) ? -(viewFromWorld * glm::dvec4(ray.at(hit), 1)).z : kInfinity);
     }
   const Mat4 clipFromView = frame.camera.clipFromView; // a test may have set its own
@@ -195,9 +211,17 @@ Light& ShaftRig::addLight(const Light& light, int mapSize, bool glass) {
   Light& added = scene.frame.lights.back();
   added = light;
   if (added.shadow.views.empty()) added.shadow.views = shadowViews(light);
-  scene.setShadow(scene.frame.lights.size() - 1, castMaps(added.shadow.views, mapSize, glass));
+  scene.setShadow(scene.frame.lights.size() - 1, castMaps(moving_, added.shadow.views, mapSize, glass));
+  maps_.push_back({mapSize, glass});
   changed();
   return added;
+}
+
+void ShaftRig::setMoving(const std::vector<glm::dmat4>& worldFromCube) {
+  moving_ = worldFromCube;
+  for (std::size_t i = 0; i < maps_.size(); ++i)
+    scene.setShadow(i, castMaps(moving_, scene.frame.lights[i].shadow.views, maps_[i].size, maps_[i].glass));
+  seeBoxes();
 }
 
 void ShaftRig::changed() {

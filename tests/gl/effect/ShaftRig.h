@@ -39,6 +39,9 @@ public:
   /// Enters the camera's projection, and the depth that it sees.
   void setConvention(const DepthConvention& convention);
 
+  /// Puts cubes from -1 to 1, placed by these matrices, into the scene in place of those before: into depth and maps.
+  void setMoving(const std::vector<glm::dmat4>& worldFromCube);
+
   /// Adds the light with maps of the boxes through `views` of its own, or through shadowViews() if there are none.
   tyndall::Light& addLight(const tyndall::Light& light, int mapSize = 128, bool glass = false);
 
@@ -58,8 +61,14 @@ public:
   ShaftError error(const reference::Image& image);
 
 private:
+  struct Maps {
+    int size = 0;
+    bool glass = false;
+  };
   void seeBoxes();
 
+  std::vector<glm::dmat4> moving_;
+  std::vector<Maps> maps_;
   reference::Image truth_;
   std::vector<reference::Image> displaced_;
 };

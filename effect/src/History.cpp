@@ -1,0 +1,160 @@
+#include "History.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <tuple>
+
+namespace tyndall {
+
+namespace {
+
+constexpr int kLongestRest = 16;
+
+template <typename Block>
+bool same(const Block& a, const Block& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0; // blocks have no padding
+}
+
+auto fieldsOf(const Settings& s) {
+  return std::tie(s.technique, s.view, s.shadowFilter, s.slices, s.samples, s.rowStep, s.minMaxTree, s.breakThreshold,
+                  s.bendThreshold, s.leastWeight, s.averageThreshold, s.spreadThreshold, s.lowRankTerms,
+                  s.sampleBudget);
+}
+
+auto fieldsOf(const passes::exact::Variant& v) {
+  return std::tie(v.lightKind, v.shadowViews, v.shadowArray, v.bilinear, v.glass, v.monochrome, v.multisampled,
+                  v.composite);
+}
+
+bool same(const LightKey& a, const LightKey& b) {
+  return same(a.block, b.block) && fieldsOf(a.settings) == fieldsOf(b.settings) && a.map.width == b.map.width &&
+         a.map.height == b.map.height && fieldsOf(a.variant) == fieldsOf(b.variant);
+}
+
+bool isStated(std::uint64_t version, std::uint64_t last) { return version != 0 && version == last; }
+
+} // namespace
+
+std::uint64_t LightHistory::bytes() const {
+  return kept.bytes() + ends[0].bytes() + ends[1].bytes() + rows[0].bytes() + rows[1].bytes();
+}
+
+bool ViewHistory::rests() {
+  judge();
+  if (rest_ == 0) return false;
+  --rest_;
+  valid_ = false;
+  keepsDepth = false;
+  picture_ = Redraw::All;
+  return true;
+}
+
+Redraw ViewHistory::plan(const FrameKey& key, const Frame& frame) {
+  const bool detects = frame.reuse.changes == Changes::Detect;
+  bool all = !valid_ || !same(key.block, key_.block) || fieldsOf(key.settings) != fieldsOf(key_.settings) ||
+             key.drawn != key_.drawn || (!detects && frame.reuse.frame != frame_ + 1);
+  // A part of a picture is drawn by slices only, and against its mean inscatter not even that.
+  const bool inParts = key.settings.technique == Technique::Epipolar && !frame.depth.multisampled &&
+                       !std::isfinite(key.settings.spreadThreshold) && !key.drawn.empty();
+  const bool sameDepth = detects ? isStated(frame.depth.version, depthVersion_) : frame.objects.empty();
+  all = all || (!sameDepth && (!inParts || (detects && !keepsDepth)));
+  while (lights_.size() < frame.lights.size())
+    lights_.push_back(std::make_unique<LightHistory>(gl_));
+  bool part = !sameDepth;
+  for (std::size_t i = 0; i < key.drawn.size(); ++i) {
+    planLight(key, i, frame, !all);
+    const Redraw redraw = light(key.drawn[i]).redraw;
+    part = part || redraw != Redraw::Nothing;
+    all = all || redraw == Redraw::All || (redraw == Redraw::Part && !inParts);
+  }
+  mayReuse_ = valid_;
+  key_ = key;
+  picture_ = all ? Redraw::All : part ? Redraw::Part : Redraw::Nothing;
+  keepsDepth = keepsDepth && (detects || picture_ == Redraw::Nothing);
+  return picture_;
+}
+
+void ViewHistory::planLight(const FrameKey& key, std::size_t i, const Frame& frame, bool sameFrame) {
+  const std::size_t index = key.drawn[i];
+  LightHistory& light = *lights_[index];
+  const std::uint64_t version = frame.lights[index].shadow.version;
+  const bool hasMap = frame.lights[index].shadow.texture != 0, detects = frame.reuse.changes == Changes::Detect;
+  light.comparesEnds = detects && !isStated(frame.depth.version, depthVersion_);
+  light.comparesRows = detects && hasMap && !isStated(version, light.mapVersion);
+  const bool changes = detects ? light.comparesEnds || light.comparesRows : !frame.objects.empty();
+  const bool kept = sameFrame && light.valid && same(key.lights[i], light.key);
+  light.redraw = !kept ? Redraw::All : changes || frame.reuse.refreshFrames > 0 ? Redraw::Part : Redraw::Nothing;
+  light.key = key.lights[i];
+  light.mapVersion = version;
+  light.slices = light.changed = 0;
+}
+
+void ViewHistory::finish(const Frame& frame, bool drawn) {
+  valid_ = drawn;
+  for (std::size_t i = 0; i < lights_.size(); ++i)
+    lights_[i]->valid = drawn && std::find(key_.drawn.begin(), key_.drawn.end(), i) != key_.drawn.end();
+  depthVersion_ = frame.depth.version;
+  frame_ = frame.reuse.frame;
+  ++frames;
+  fullShare_ = frame.reuse.fullShare;
+  mayReuse_ = mayReuse_ && drawn;
+}
+
+void ViewHistory::judge() {
+  if (!mayReuse_) return;
+  mayReuse_ = false;
+  const bool busy = picture_ == Redraw::All || (picture_ == Redraw::Part && redrawnShare() > fullShare_);
+  if (busy && (busy_ || pause_ > 1)) {
+    rest_ = pause_;
+    pause_ = std::min(2 * pause_, kLongestRest);
+  }
+  if (!busy) pause_ = 1;
+  busy_ = busy;
+}
+
+double ViewHistory::redrawnShare() {
+  if (picture_ == Redraw::All) return 1;
+  if (picture_ == Redraw::Nothing) return 0;
+  std::uint64_t slices = 0, changed = 0;
+  for (const std::size_t index : key_.drawn) {
+    LightHistory& light = *lights_[index];
+    if (light.changed < 0) {
+      gl::Uint64 count = 0;
+      gl_.GetQueryObjectui64v(light.count.name(), gl::QUERY_RESULT, &count);
+      light.changed = static_cast<int>(count);
+    }
+    slices += static_cast<std::uint64_t>(light.slices);
+    changed += static_cast<std::uint64_t>(light.changed);
+  }
+  return slices > 0 ? static_cast<double>(changed) / static_cast<double>(slices) : 0;
+}
+
+std::uint64_t ViewHistory::bytes() const {
+  std::uint64_t sum = targets.bytes();
+  for (const auto& light : lights_)
+    sum += light->bytes();
+  return sum;
+}
+
+ViewHistory& Histories::of(std::uint64_t view) {
+  auto found = std::find_if(views_.begin(), views_.end(), [&](const auto& v) { return v->view() == view; });
+  if (found == views_.end()) {
+    if (views_.size() == kMostViews)
+      views_.erase(
+          std::min_element(views_.begin(), views_.end(), [](const auto& a, const auto& b) { return a->age < b->age; }));
+    views_.push_back(std::make_unique<ViewHistory>(gl_, view));
+    found = views_.end() - 1;
+  }
+  (*found)->age = ++clock_;
+  return **found;
+}
+
+std::uint64_t Histories::bytes() const {
+  std::uint64_t sum = 0;
+  for (const auto& view : views_)
+    sum += view->bytes();
+  return sum;
+}
+
+} // namespace tyndall
