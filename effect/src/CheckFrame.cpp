@@ -156,11 +156,12 @@ Status checkLight(const std::string& field, const Light& light) {
 }
 
 Status checkView(const Frame& frame) {
-  constexpr const char* kNames[] = {"Composite",   "Slices",     "Samples",   "Breaks",        "MarchSamples",
-                                    "FixupPixels", "NodeVisits", "Inscatter", "Transmittance", "Difference"};
+  constexpr const char* kNames[] = {"Composite",     "Slices",      "Samples",    "Breaks",
+                                    "MarchSamples",  "FixupPixels", "NodeVisits", "Inscatter",
+                                    "Transmittance", "Difference",  "Redrawn"};
   const View view = frame.settings.view;
   const Technique technique = frame.settings.technique;
-  if (view < View::Composite || view > View::Difference)
+  if (view < View::Composite || view > View::Redrawn)
     return invalid("settings.view", std::to_string(static_cast<int>(view)), "must be one of the enumerators");
   const std::string name = kNames[static_cast<int>(view)];
   if (view != View::Composite && frame.colour == 0)
@@ -215,7 +216,8 @@ Status checkReuse(const Frame& frame) {
   if (reuse.refreshFrames < 0 || reuse.refreshFrames > 65536)
     return invalid("reuse.refreshFrames", std::to_string(reuse.refreshFrames), "must be 0 to 65536");
   if (reuse.changes != Changes::Objects && !frame.objects.empty())
-    return invalid("objects", std::to_string(frame.objects.size()) + " long", "only reuse.changes Objects looks at them");
+    return invalid("objects", std::to_string(frame.objects.size()) + " long",
+                   "only reuse.changes Objects looks at them");
   for (std::size_t i = 0; i < frame.objects.size(); ++i) {
     const std::string field = "objects[" + std::to_string(i) + "].";
     const MovingObject& object = frame.objects[i];

@@ -143,7 +143,8 @@ Status Effect::State::renderChecked(const Frame& frame, const FrameTextures& tex
   if (!changesColour) recorder.skip("composite", "the medium neither scatters nor absorbs");
   if (!changesColour && !hasView(frame) && frame.output.inscatter == 0 && frame.output.transmittance == 0) return {};
 
-  if (frame.reuse.changes != Changes::Unknown && changesColour && !hasView(frame)) {
+  if (frame.reuse.changes != Changes::Unknown && changesColour &&
+      (!hasView(frame) || frame.settings.view == View::Redrawn)) {
     bool rests = false;
     Status status = renderReusing(frame, textures, rests);
     if (!rests) return status;
@@ -155,6 +156,8 @@ Status Effect::State::renderChecked(const Frame& frame, const FrameTextures& tex
   beginDraws(frame, textures);
   if (Status s = drawLights(frame, textures, destination); !s) return s;
   if (!destination.composite) return {};
+  if (frame.settings.view == View::Redrawn)
+    if (Status s = showRedrawn(frame, Redraw::All); !s) return s;
   if (hasView(frame)) return drawView(frame, textures, destination);
 
   return composite(frame, destination);
@@ -195,7 +198,7 @@ Status Effect::State::prepareColour(const Frame& frame) {
   const bool ok = hasView(frame) ? passes::view::prepare(passContext(), frame.settings.view)
                                  : programs.use("passes/composite.frag", {}) != 0;
   if (!ok) return shaderError();
-  return showsSlices(frame) ? clearView(frame) : Status{};
+  return showsSlices(frame) ? clearView(frame, 0) : Status{};
 }
 
 Status Effect::State::attach(const Frame& frame, gl::Uint first, gl::Uint second, bool withStencil) {

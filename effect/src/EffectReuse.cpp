@@ -37,18 +37,21 @@ Status Effect::State::renderReusing(const Frame& frame, const FrameTextures& tex
     key.drawn.push_back(light.index);
     key.lights.push_back({light.block, light.settings, textures.shadows[light.index], light.variant});
   }
-  const Redraw picture = view.plan(key, frame);
+  Redraw picture = view.plan(key, frame);
   Status status = redraw(frame, textures, lights, picture, kept);
   view.finish(frame, static_cast<bool>(status));
   if (picture == Redraw::All) view.targets.endFrame();
   redrawnShare = -1;
   lastView = frame.reuse.view;
   if (status) status = copyToOutputs(frame, kept);
-  return status && kept.composite ? composite(frame, kept) : status;
+  if (!status || !kept.composite) return status;
+  if (!hasView(frame)) return composite(frame, kept);
+  if (Status s = showRedrawn(frame, picture); !s) return s;
+  return drawView(frame, textures, kept);
 }
 
 Status Effect::State::redraw(const Frame& frame, const FrameTextures& textures, const std::vector<DrawnLight>& lights,
-                             Redraw picture, const Destination& destination) {
+                             Redraw& picture, const Destination& destination) {
   if (picture == Redraw::Nothing) {
     recorder.skip("lights", "nothing has changed: the last frame's picture is shown");
     return {};
@@ -64,7 +67,7 @@ Status Effect::State::redraw(const Frame& frame, const FrameTextures& textures, 
 }
 
 Status Effect::State::redrawSlices(const Frame& frame, const FrameTextures& textures,
-                                   const std::vector<DrawnLight>& lights, Redraw picture,
+                                   const std::vector<DrawnLight>& lights, Redraw& picture,
                                    const Destination& destination) {
   using namespace passes;
   ViewHistory& view = histories.of(frame.reuse.view);

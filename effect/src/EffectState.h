@@ -59,7 +59,8 @@ struct Effect::State {
   Status drawDifference(const Frame& frame, const FrameTextures& textures, passes::view::In& in);
   Status drawMean(const Frame& frame, gl::Uint image, int channels, gl::Uint& mean);
   Status readVisits(const Frame& frame, gl::Uint image);
-  Status clearView(const Frame& frame);
+  Status clearView(const Frame& frame, float red);
+  Status showRedrawn(const Frame& frame, Redraw picture);
   std::vector<DrawnLight> lightsToDraw(const Frame& frame, const FrameTextures& textures, bool wantsInscatter,
                                        bool direct);
   passes::SliceInputs sliceInputs(const Frame& lit, const DrawnLight& light, const FrameTextures& textures,
@@ -71,9 +72,9 @@ struct Effect::State {
   // Temporal reuse (EffectReuse.cpp).
   Status renderReusing(const Frame& frame, const FrameTextures& textures, bool& rests);
   Status redraw(const Frame& frame, const FrameTextures& textures, const std::vector<DrawnLight>& lights,
-                Redraw picture, const Destination& destination);
+                Redraw& picture, const Destination& destination);
   Status redrawSlices(const Frame& frame, const FrameTextures& textures, const std::vector<DrawnLight>& lights,
-                      Redraw picture, const Destination& destination);
+                      Redraw& picture, const Destination& destination);
   Status maskChanges(const Frame& frame, const std::vector<DrawnLight>& lights, ViewHistory& view,
                      const Destination& destination, std::uint64_t& masked);
   Status keepDepth(const Frame& frame, ViewHistory& view, bool underMask);

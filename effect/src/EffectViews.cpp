@@ -1,23 +1,34 @@
 // Debug views: what takes the composite's place.
 #include "EffectState.h"
+#include "passes/Changes.h"
+#include "passes/StencilTest.h"
 #include "passes/View.h"
 
 namespace tyndall {
 
-// Black, where no light is drawn or a sample lies.
-Status Effect::State::clearView(const Frame& frame) {
+// Black, where no light is drawn or a sample lies; or red.
+Status Effect::State::clearView(const Frame& frame, float red) {
   const gl::Uint view = targets.get(Target::View, frame.width, frame.height);
   if (!view) return {StatusCode::OutOfMemory, "GL could not allocate a texture for Frame::settings.view"};
   if (Status s = attach(frame, view, 0); !s) return s;
-  constexpr std::array<gl::Float, 4> kBlack = {0, 0, 0, 0};
-  gl.ClearBufferfv(gl::COLOR, 0, kBlack.data());
+  const std::array<gl::Float, 4> colour = {red, 0, 0, red};
+  gl.ClearBufferfv(gl::COLOR, 0, colour.data());
   return {};
+}
+
+// What a frame with Frame::reuse drew: its mask is in the stencil.
+Status Effect::State::showRedrawn(const Frame& frame, Redraw picture) {
+  if (Status s = clearView(frame, picture == Redraw::All ? 1 : 0); !s || picture != Redraw::Part) return s;
+  if (Status s = attach(frame, targets.get(Target::View, frame.width, frame.height), 0, true); !s) return s;
+  passes::setBlend(passContext(), passes::Blend::Replace);
+  const passes::StencilTest test(gl, {gl::EQUAL, passes::changes::kMasked, passes::changes::kMasked, gl::KEEP});
+  return passes::drawFullScreen(passContext(), "passes/viewFixup.frag", {}) ? Status{} : shaderError();
 }
 
 Status Effect::State::drawView(const Frame& frame, const FrameTextures& textures, const Destination& destination) {
   passes::view::In in{frame.settings.view, destination.inscatter};
   if (in.view == View::Transmittance) in.image = destination.transmittance;
-  if (showsSlices(frame)) in.image = targets.get(Target::View, frame.width, frame.height);
+  if (showsSlices(frame) || in.view == View::Redrawn) in.image = targets.get(Target::View, frame.width, frame.height);
   if (in.view == View::Difference)
     if (Status s = drawDifference(frame, textures, in); !s) return s;
   if (in.view == View::NodeVisits)

@@ -16,9 +16,9 @@ namespace {
 constexpr std::array<std::string_view, 4> kProfiles = {"performance", "balanced", "high", "reference"};
 constexpr std::array<std::string_view, 4> kTechniques = {"exact", "tree", "epipolar", "lowrank"};
 // In the order of tyndall::View.
-constexpr std::array<std::string_view, 10> kViews = {"composite",     "slices",       "samples",     "breaks",
+constexpr std::array<std::string_view, 11> kViews = {"composite",     "slices",       "samples",     "breaks",
                                                      "march-samples", "fixup-pixels", "node-visits", "inscatter",
-                                                     "transmittance", "difference"};
+                                                     "transmittance", "difference",   "redrawn"};
 constexpr int kMaxFrame = 999999;
 constexpr int kMaxRepeat = 10000;
 constexpr int kMaxSupersample = 8;
@@ -32,6 +32,7 @@ Files
   Files are written beside their name and renamed when complete.
 Views
   composite (default), inscatter, transmittance, and difference (to exact; grey 0, red +10 %, blue -10 % of the mean);
+  redrawn (red: not kept from the last frame);
   with --technique tree, lowrank or epipolar slices and node-visits (black 0 to white 1023, ticks at 4, 16, 64, 256); with
   epipolar samples, breaks, march-samples and fixup-pixels. tyndall.h explains the colours. All but composite and
   inscatter go into the PNG without tone mapping.
@@ -44,7 +45,7 @@ struct Typed {
       rowStep, tree, breakThreshold, bendThreshold, leastWeight, averageThreshold, spreadThreshold, lowRankTerms,
       sampleBudget, cascadeFade, filter, medium, shadowSize, cascades, frames, repeat, context, stats, exposure;
   std::vector<std::string> out;
-  bool reversedDepth = false;
+  bool reversedDepth = false, noReuse = false, detectChanges = false;
 };
 
 double parseFinite(const std::string& option, const std::string& value, const std::string& part) {
@@ -236,7 +237,9 @@ void addOptions(CLI::App& app, Typed& typed) {
       ->type_name("N");
   app.add_flag("--reversed-depth", typed.reversedDepth, "camera and shadow depth fall from 1 to 0");
   app.add_option("--frames", typed.frames, "frames of the animation, at 24 a second")->type_name("A-B");
-  app.add_option("--repeat", typed.repeat, "after a warm-up, time N renders of each frame")->type_name("N");
+  app.add_flag("--no-reuse", typed.noReuse, "draw every frame in full, not only what has moved since the last one");
+  app.add_flag("--detect-changes", typed.detectChanges, "find what has moved by comparison, not by the scene's nodes");
+  app.add_option("--repeat", typed.repeat, "after a warm-up, time N renders of each frame, in full")->type_name("N");
   app.add_option("--context", typed.context, "osmesa (default), egl or glfw")->type_name("NAME");
   app.add_option("--out", typed.out, "a picture, .exr or .png; may be given twice; %04d is the frame")
       ->type_name("IMAGE")
@@ -256,6 +259,9 @@ Options fromTyped(const Typed& typed) {
   readQuality(typed, options);
   if (!typed.medium.empty()) options.medium = typed.medium;
   if (!typed.frames.empty()) options.frames = parseFrames(typed.frames);
+  if (typed.noReuse && typed.detectChanges) failUsage("--detect-changes", "given", "cannot go with --no-reuse");
+  if (options.frames && !typed.noReuse && !options.repeat)
+    options.changes = typed.detectChanges ? tyndall::Changes::Detect : tyndall::Changes::Objects;
   options.context = parseContext("--context", typed.context);
   readOutputs(typed, options);
   if (!typed.exposure.empty()) {

@@ -53,7 +53,8 @@ struct Options {
   double cascadeFade = 0.1;
   bool reversedDepth = false;       ///< of camera and shadow maps, with clip depth from 0 to 1
   std::optional<FrameRange> frames; ///< none: frame 0, and one object in the statistics instead of a list
-  std::optional<int> repeat;        ///< none: render once, without a warm-up
+  tyndall::Changes changes = tyndall::Changes::Unknown; ///< how frames after the first reuse what they can
+  std::optional<int> repeat;                            ///< none: render once, without a warm-up
   host::ContextKind context = host::ContextKind::Osmesa;
   std::vector<std::filesystem::path> out;
   std::optional<std::filesystem::path> stats;

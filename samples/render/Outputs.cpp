@@ -66,7 +66,8 @@ nlohmann::ordered_json statisticsOf(const FrameStatistics& frame, const Options&
           {"bytes", measurement.statistics.bytes},
           {"passes", passesOf(measurement.statistics)},
           {"marched_samples", measurement.statistics.marchedSamples},
-          {"fixup_pixels", measurement.statistics.fixupPixels}};
+          {"fixup_pixels", measurement.statistics.fixupPixels},
+          {"redrawn_share", measurement.statistics.redrawnShare}};
 }
 
 } // namespace

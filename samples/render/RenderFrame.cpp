@@ -7,6 +7,7 @@
 #include <scene/Error.h>
 #include <scene/GltfLoader.h>
 #include <scene/MediumFile.h>
+#include <scene/MovedObjects.h>
 #include <scene/Projection.h>
 #include <scene/ShadowViews.h>
 
@@ -98,6 +99,7 @@ FrameRenderer::FrameRenderer(const Options& options)
   tyndall::CreateResult created = tyndall::Effect::create(config);
   if (!created.status) throw host::Error("effect: " + created.status.message);
   effect_ = std::move(created.effect);
+  meshBounds_ = host::meshBounds(scene_);
 
   const host::Bounds bounds = host::boundsOf(scene_, host::poseAt(scene_, 0));
   frame_.medium = options.medium ? host::loadMedium(*options.medium) : host::mediumOf(scene_, bounds, notes_);
@@ -108,6 +110,7 @@ FrameRenderer::FrameRenderer(const Options& options)
   frame_.output.inscatter = inscatter_.name();
   frame_.output.transmittance = transmittance_.name();
   frame_.settings = settingsOf(options);
+  frame_.reuse.changes = options.changes;
 }
 
 tyndall::Camera FrameRenderer::makeCamera(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) const {
@@ -194,7 +197,7 @@ void FrameRenderer::throwGlErrors() const {
   if (!errors.empty()) throw host::Error("OpenGL: " + errors.front());
 }
 
-Measurement FrameRenderer::render(int frame) {
+void FrameRenderer::draw(int frame) {
   const std::vector<glm::dmat4> worldFromNode = host::poseAt(scene_, frame / kFramesPerSecond);
   host::Notes notes;
   frame_.camera = makeCamera(worldFromNode, notes);
@@ -203,6 +206,16 @@ Measurement FrameRenderer::render(int frame) {
   renderShadowMaps(worldFromNode, notes);
   addOnce(notes_, notes);
   sceneRenderer_->renderScene(worldFromNode, frame_.camera, frame_.lights, surfaces_, sky, &frame_.medium);
+  ++frame_.reuse.frame;
+  frame_.objects.clear();
+  if (options_.changes == tyndall::Changes::Objects && !lastPose_.empty())
+    frame_.objects = host::movedObjects(scene_, meshBounds_, lastPose_, worldFromNode);
+  lastPose_ = worldFromNode;
+  throwGlErrors();
+}
+
+Measurement FrameRenderer::render(int frame) {
+  draw(frame);
   Measurement measurement = measure();
   throwGlErrors();
   return measurement;

@@ -41,6 +41,10 @@ public:
   /// Renders a frame of the animation. Throws host::Error.
   Measurement render(int frame);
 
+  /// The same without the effect: the scene and its maps, for others to render frame() from. Its objects are what
+  /// moved since the last call.
+  void draw(int frame);
+
   /// Reads back the last frame.
   Picture readPicture() const;
 
@@ -75,6 +79,8 @@ private:
   host::GlTexture transmittance_;
   std::vector<host::ShadowMapTextures> shadowMaps_;
   std::unique_ptr<tyndall::Effect> effect_;
+  std::vector<host::Bounds> meshBounds_;
+  std::vector<glm::dmat4> lastPose_; ///< of the last frame; empty before the first
   tyndall::Frame frame_;
 };
 

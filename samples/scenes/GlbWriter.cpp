@@ -1,5 +1,6 @@
 #include "GlbWriter.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -80,23 +81,43 @@ tinygltf::Material materialOf(const Material& source) {
   return material;
 }
 
-void appendMesh(tinygltf::Model& model, const Scene& scene) {
+bool isUsed(const Scene& scene, std::size_t material) {
+  const auto hasIt = [&](const std::vector<Surface>& surfaces) {
+    return material < surfaces.size() && !surfaces[material].indices.empty();
+  };
+  return hasIt(scene.surfaces) ||
+         std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) { return hasIt(body.surfaces); });
+}
+
+/// Appends the materials that have triangles; returns the index in the file of each of the scene's, -1 without one.
+std::vector<int> appendMaterials(tinygltf::Model& model, const Scene& scene) {
+  std::vector<int> indices(scene.materials.size(), -1);
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    if (!isUsed(scene, i)) continue;
+    indices[i] = static_cast<int>(model.materials.size());
+    model.materials.push_back(materialOf(scene.materials[i]));
+    if (scene.materials[i].glass) model.extensionsUsed = {kTransmission};
+  }
+  return indices;
+}
+
+int appendMesh(tinygltf::Model& model, const std::string& name, const std::vector<Surface>& surfaces,
+               const std::vector<int>& materials) {
   tinygltf::Mesh mesh;
-  mesh.name = scene.name;
-  for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
-    const Surface& surface = scene.surfaces[i];
+  mesh.name = name;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const Surface& surface = surfaces[i];
     if (surface.indices.empty()) continue;
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.material = static_cast<int>(model.materials.size());
+    primitive.material = materials[i];
     primitive.attributes["POSITION"] = appendVectors(model, surface.positions, true);
     primitive.attributes["NORMAL"] = appendVectors(model, surface.normals, false);
     primitive.indices = appendIndices(model, surface.indices);
     mesh.primitives.push_back(primitive);
-    model.materials.push_back(materialOf(scene.materials[i]));
-    if (scene.materials[i].glass) model.extensionsUsed = {kTransmission};
   }
   model.meshes.push_back(mesh);
+  return static_cast<int>(model.meshes.size()) - 1;
 }
 
 int appendNode(tinygltf::Model& model, tinygltf::Node node) {
@@ -104,6 +125,69 @@ int appendNode(tinygltf::Model& model, tinygltf::Node node) {
   const int index = static_cast<int>(model.nodes.size()) - 1;
   model.scenes[0].nodes.push_back(index);
   return index;
+}
+
+int appendMeshNode(tinygltf::Model& model, const std::string& name, int mesh) {
+  tinygltf::Node node;
+  node.name = name;
+  node.mesh = mesh;
+  return appendNode(model, node);
+}
+
+/// Appends `values`, those of one key after another, and the channel that plays them.
+void appendChannel(tinygltf::Model& model, int node, const char* path, int times, int type,
+                   const std::vector<float>& values) {
+  tinygltf::Accessor accessor;
+  accessor.bufferView = appendView(model, values, 0);
+  accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
+  accessor.type = type;
+  accessor.count = values.size() / static_cast<std::size_t>(tinygltf::GetNumComponentsInType(type));
+  model.accessors.push_back(accessor);
+  tinygltf::AnimationSampler sampler;
+  sampler.input = times;
+  sampler.output = static_cast<int>(model.accessors.size()) - 1;
+  sampler.interpolation = "LINEAR";
+  tinygltf::Animation& animation = model.animations[0];
+  animation.samplers.push_back(sampler);
+  tinygltf::AnimationChannel channel;
+  channel.sampler = static_cast<int>(animation.samplers.size()) - 1;
+  channel.target_node = node;
+  channel.target_path = path;
+  animation.channels.push_back(channel);
+}
+
+void appendMotion(tinygltf::Model& model, int node, const std::vector<Pose>& poses) {
+  std::vector<float> times;
+  std::vector<float> translations;
+  std::vector<float> rotations;
+  for (const Pose& pose : poses) {
+    times.push_back(static_cast<float>(pose.seconds));
+    const glm::vec3 t(pose.translation);
+    translations.insert(translations.end(), {t.x, t.y, t.z});
+    const glm::quat q(pose.rotation);
+    rotations.insert(rotations.end(), {q.x, q.y, q.z, q.w});
+  }
+  tinygltf::Accessor accessor;
+  accessor.bufferView = appendView(model, times, 0);
+  accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
+  accessor.type = TINYGLTF_TYPE_SCALAR;
+  accessor.count = times.size();
+  accessor.minValues = {times.front()};
+  accessor.maxValues = {times.back()};
+  model.accessors.push_back(accessor);
+  const int input = static_cast<int>(model.accessors.size()) - 1;
+  appendChannel(model, node, "translation", input, TINYGLTF_TYPE_VEC3, translations);
+  appendChannel(model, node, "rotation", input, TINYGLTF_TYPE_VEC4, rotations);
+}
+
+void appendBodies(tinygltf::Model& model, const Scene& scene, const std::vector<int>& materials) {
+  if (scene.bodies.empty()) return;
+  model.animations.resize(1);
+  model.animations[0].name = scene.name;
+  for (const Body& body : scene.bodies) {
+    const int node = appendMeshNode(model, body.name, appendMesh(model, body.name, body.surfaces, materials));
+    appendMotion(model, node, body.poses);
+  }
 }
 
 /// A node at a place whose -z axis looks along a direction, as glTF's cameras and lights do.
@@ -185,11 +269,9 @@ void writeGlb(const Scene& scene, const std::string& path) {
   model.scenes[0].name = scene.name;
   model.scenes[0].extras = extrasOf(scene);
   model.defaultScene = 0;
-  appendMesh(model, scene);
-  tinygltf::Node geometry;
-  geometry.name = scene.name;
-  geometry.mesh = 0;
-  appendNode(model, geometry);
+  const std::vector<int> materials = appendMaterials(model, scene);
+  appendMeshNode(model, scene.name, appendMesh(model, scene.name, scene.surfaces, materials));
+  appendBodies(model, scene, materials);
   appendCamera(model, scene.camera);
   for (const Light& light : scene.lights)
     appendLight(model, light);

@@ -50,15 +50,15 @@ MeshBuilder& MeshBuilder::frame(const glm::dmat4& worldFromLocal) {
 }
 
 std::uint32_t MeshBuilder::vertex(const glm::dvec3& position, const glm::dvec3& normal) {
-  Surface& surface = scene_.surfaces[static_cast<std::size_t>(material_)];
+  Surface& surface = surfaces_[static_cast<std::size_t>(material_)];
   const glm::dvec3 world(worldFromLocal_ * glm::dvec4(position, 1));
-  surface.positions.push_back(glm::round(world / scene_.grid) * scene_.grid);
+  surface.positions.push_back(glm::round(world / grid_) * grid_);
   surface.normals.push_back(directionOr(worldFromLocalNormal_ * normal, {0, 1, 0}));
   return static_cast<std::uint32_t>(surface.positions.size()) - 1;
 }
 
 void MeshBuilder::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  Surface& surface = scene_.surfaces[static_cast<std::size_t>(material_)];
+  Surface& surface = surfaces_[static_cast<std::size_t>(material_)];
   const auto& p = surface.positions;
   const glm::dvec3 across = glm::cross(p[b] - p[a], p[c] - p[a]);
   if (glm::dot(across, across) <= 0) return;
@@ -244,8 +244,13 @@ void MeshBuilder::boulder(const glm::dvec3& centre, const glm::dvec3& radii, dou
 
 std::size_t triangleCount(const Scene& scene) {
   std::size_t count = 0;
-  for (const Surface& surface : scene.surfaces)
-    count += surface.indices.size() / 3;
+  const auto add = [&](const std::vector<Surface>& surfaces) {
+    for (const Surface& surface : surfaces)
+      count += surface.indices.size() / 3;
+  };
+  add(scene.surfaces);
+  for (const Body& body : scene.bodies)
+    add(body.surfaces);
   return count;
 }
 

@@ -10,7 +10,12 @@ namespace scenes {
 
 class MeshBuilder {
 public:
-  explicit MeshBuilder(Scene& scene) : scene_(scene) {}
+  /// Builds what stands still.
+  explicit MeshBuilder(Scene& scene) : surfaces_(scene.surfaces), grid_(scene.grid) {}
+  /// Builds a body in its own coordinates, of the materials that the scene has by now.
+  MeshBuilder(const Scene& scene, Body& body) : surfaces_(body.surfaces), grid_(scene.grid) {
+    body.surfaces.resize(scene.materials.size());
+  }
 
   /// The material of what follows.
   MeshBuilder& material(int index);
@@ -44,14 +49,15 @@ public:
   void boulder(const glm::dvec3& centre, const glm::dvec3& radii, double roughness, double seed, int sides);
 
 private:
-  Scene& scene_;
+  std::vector<Surface>& surfaces_;
+  double grid_;
   int material_ = 0;
   glm::dmat4 worldFromLocal_{1};
   glm::dmat3 worldFromLocalNormal_{1};
   bool mirrored_ = false;
 };
 
-/// The number of triangles of a scene.
+/// The number of triangles of a scene, bodies included.
 std::size_t triangleCount(const Scene& scene);
 
 /// worldFromLocal of a frame at `origin` whose y and z axes lie along `up` and, as far as that allows, `front`.

@@ -1,8 +1,10 @@
-// What a generator makes: triangles by material, one camera, lights and the air. Metres, y up, right-handed.
+// What a generator makes: triangles by material, bodies that move, one camera, lights and the air. Metres, y up,
+// right-handed.
 #pragma once
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,21 @@ struct Surface {
   std::vector<glm::dvec3> positions;
   std::vector<glm::dvec3> normals;
   std::vector<std::uint32_t> indices;
+};
+
+/// Where a body is at a time: worldFromBody.
+struct Pose {
+  double seconds = 0;
+  glm::dvec3 translation{0};
+  glm::dquat rotation{1, 0, 0, 0};
+};
+
+/// What moves as a whole. Between its poses it goes straight and turns evenly, by less than half a turn; a last pose
+/// equal to the first makes it loop.
+struct Body {
+  std::string name;
+  std::vector<Surface> surfaces; ///< one a material of the scene, in the body's own coordinates
+  std::vector<Pose> poses;       ///< one or more, in order of time
 };
 
 struct Camera {
@@ -53,7 +70,8 @@ struct Constituent {
 struct Scene {
   std::string name;
   std::vector<Material> materials;
-  std::vector<Surface> surfaces; ///< one a material
+  std::vector<Surface> surfaces; ///< one a material, of what stands still
+  std::vector<Body> bodies;
   Camera camera;
   std::vector<Light> lights;
   std::vector<Constituent> constituents;
@@ -77,5 +95,6 @@ Scene makeCage();
 /// Four spot lights, or the twelve of a concert.
 Scene makeStage(bool concert);
 Scene makeProjector();
+Scene makeOrrery();
 
 } // namespace scenes

@@ -21,6 +21,7 @@ const std::map<std::string, std::function<scenes::Scene()>>& generators() {
       {"stage", [] { return scenes::makeStage(false); }},
       {"concert", [] { return scenes::makeStage(true); }},
       {"projector", scenes::makeProjector},
+      {"orrery", scenes::makeOrrery},
   };
   return kGenerators;
 }

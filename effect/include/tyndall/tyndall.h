@@ -192,6 +192,7 @@ enum class View {
   Transmittance, ///< T(d)
   Difference,    ///< the technique's inscatter less exact's, which is rendered too: mean over R, G, B, as a part of the
                  ///< mean of exact over the image. Grey 0, red up to +10 %, blue down to -10 %; ticks every 5 %
+  Redrawn,       ///< Frame::reuse: pixels that this frame drew anew red, the others black; without reuse all are red
 };
 
 struct Settings {

@@ -15,9 +15,9 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-constexpr double kPixels =
-    2.5;                      // of an object: a sample takes the depth of its nearest pixel, its slope those beside it
-constexpr double kTexels = 2; // the same of a shadow texel, of four with a filter
+// How far off a sample's plane lies what it sees: the centre of its nearest pixel, and of those beside it, which tell
+// the slope; of its nearest shadow texel, or of the four of a filter.
+constexpr double kPixels = 1.75, kTexels = 0.75, kFilterTexels = 1.5;
 constexpr double kPi = glm::pi<double>();
 
 double wrapped(double angle) { return std::remainder(angle, 2 * kPi); }
@@ -116,15 +116,17 @@ std::array<dvec3, 8> cornersOf(const Mat4& worldFromBox, const dvec3& cameraOrig
 }
 
 // The planes that meet the hull of a box in two poses.
-Interval intervalOf(const MovingObject& object, const dvec3& cameraOrigin, const Planes& planes, const Light& light,
+Interval intervalOf(const MovingObject& object, const Frame& frame, const Planes& planes, const Light& light,
                     const blocks::LightBlock& block) {
+  const dvec3 origin = cameraOrigin(frame.camera);
+  const double texels = frame.settings.shadowFilter == ShadowFilter::Bilinear ? kFilterTexels : kTexels;
   double margin = 0;
   for (const Mat4* pose : {&object.worldFromBox, &object.lastWorldFromBox})
-    for (const dvec3& corner : cornersOf(*pose, cameraOrigin, 0))
-      margin = std::max({margin, kPixels * planes.pixelAt(corner), kTexels * texelAt(light, block, corner)});
+    for (const dvec3& corner : cornersOf(*pose, origin, 0))
+      margin = std::max({margin, kPixels * planes.pixelAt(corner), texels * texelAt(light, block, corner)});
   std::vector<double> places;
   for (const Mat4* pose : {&object.worldFromBox, &object.lastWorldFromBox})
-    for (const dvec3& corner : cornersOf(*pose, cameraOrigin, margin))
+    for (const dvec3& corner : cornersOf(*pose, origin, margin))
       places.push_back(planes.placeOf(corner));
   for (const double place : places)
     if (!std::isfinite(place)) return {0, 0, true};
@@ -163,9 +165,8 @@ std::vector<bool> movedSlices(const Frame& frame, const Light& light, const bloc
     steps.back() = std::max(steps.back(), step);
   }
   std::vector<bool> moved(count, false);
-  const dvec3 origin = cameraOrigin(frame.camera);
   for (const MovingObject& object : frame.objects) {
-    const Interval interval = intervalOf(object, origin, planes, light, block);
+    const Interval interval = intervalOf(object, frame, planes, light, block);
     if (interval.all) return std::vector<bool>(count, true);
     // Both neighbours of what lies between two slices, with some room for the rounding of the slices' ends.
     for (std::size_t i = 0; i < count; ++i)

@@ -1,8 +1,10 @@
 // Temporal reuse (Frame::reuse): whatever moves, a reused frame is the frame in full, and work is saved.
 #include "ShaftRig.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <gl/ReadBack.h>
 #include <glm/gtc/matrix_transform.hpp>
 
 using namespace tyndall;
@@ -114,5 +116,92 @@ TEST_CASE("reused frames are the frames in full, by every light, filter and way 
         if (picture.share > 0 && picture.share < 1) ++parts;
       }
       CHECK(parts == 7);
+    }
+}
+
+namespace {
+
+// A slab with one face in a plane through the eye and the sun overhead: all of its edge is seen, and casts, in one
+// slice.
+glm::dmat4 radial(int frame) {
+  const glm::dmat4 eye = glm::translate(glm::dmat4(1), glm::dvec3(0, 2, 0));
+  const glm::dmat4 turned = glm::rotate(eye, 0.45 - 0.0137 * frame, glm::dvec3(0, 1, 0));
+  return glm::scale(glm::translate(turned, glm::dvec3(0.2, 0.3, -4.5)), glm::dvec3(0.2, 0.5, 0.05));
+}
+
+Light sunOverhead() {
+  Light light = sun();
+  light.direction = {0, -1, 1e-3};
+  const glm::dmat4 view = glm::lookAt(glm::dvec3(0, 30, 0), glm::dvec3(0, 0, 0.03), glm::dvec3(0, 0, 1));
+  light.shadow.views = {{tests::toMat4(glm::ortho(-8.0, 8.0, -8.0, 8.0, 1.0, 60.0) * view), 0}};
+  return light;
+}
+
+// What View::Redrawn shows of the frame, which is drawn: true for red.
+std::vector<bool> maskOf(tests::ShaftRig& rig) {
+  Frame& frame = rig.scene.frame;
+  const auto pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
+  const host::GlTexture colour = rig.scene.makeColour(GL_RGBA32F, std::vector<float>(4 * pixels, 0.25F));
+  frame.settings.view = View::Redrawn;
+  rig.scene.render();
+  const std::vector<float> rgba = host::readColour(colour.name(), frame.width, frame.height);
+  frame.settings.view = View::Composite;
+  frame.colour = 0;
+  std::vector<bool> mask;
+  for (std::size_t i = 0; i < pixels; ++i)
+    mask.push_back(rgba[4 * i] > 0.5F);
+  return mask;
+}
+
+// Without the pixels whose neighbourhood of some pixels is not all set.
+std::vector<bool> shrunk(const std::vector<bool>& mask, int width, int height, int by) {
+  std::vector<bool> result = mask;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int dx = -by; dx <= by; ++dx) {
+        const int at = std::clamp(x + dx, 0, width - 1);
+        if (!mask[static_cast<std::size_t>(y * width + at)]) result[static_cast<std::size_t>(y * width + x)] = false;
+      }
+  return result;
+}
+
+bool covers(const std::vector<bool>& mask, const reference::Image& a, const reference::Image& b) {
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x)
+      if (a.at(x, y) != b.at(x, y) && !mask[static_cast<std::size_t>(y * a.width + x)]) return false;
+  return true;
+}
+
+} // namespace
+
+TEST_CASE("the mask holds every pixel that changes, and without the pixels along its border it does not") {
+  for (const Changes changes : {Changes::Detect, Changes::Objects})
+    for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear}) {
+      CAPTURE(static_cast<int>(changes), static_cast<int>(filter));
+      tests::ShaftRig rig(96, 64);
+      rig.addLight(sunOverhead(), 512);
+      rig.scene.frame.settings.shadowFilter = filter;
+      rig.scene.frame.settings.technique = Technique::Epipolar;
+      begin(rig, changes);
+      reference::Image last;
+      bool tight = false;
+      for (int frame = 0; frame < 16; ++frame) {
+        CAPTURE(frame);
+        rig.setMoving({radial(frame)});
+        ++rig.scene.frame.reuse.frame;
+        rig.scene.frame.objects.clear();
+        if (changes == Changes::Objects && frame > 0)
+          rig.scene.frame.objects = {between(radial(frame - 1), radial(frame))};
+        const std::vector<bool> mask = maskOf(rig);
+        const reference::Image now = full(rig).inscatter;
+        if (frame == 0) CHECK(std::count(mask.begin(), mask.end(), true) == 96 * 64);
+        if (frame > 0) {
+          CHECK(covers(mask, now, last));
+          // Boxes are widened by what a sample may see, and by a slice.
+          tight = tight || !covers(shrunk(mask, 96, 64, changes == Changes::Detect ? 1 : 3), now, last);
+        }
+        last = now;
+      }
+      CHECK(tight);
     }
 }

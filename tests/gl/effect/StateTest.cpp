@@ -336,7 +336,7 @@ TEST_CASE("debug views leave a poisoned GL state alone") {
   frame.settings.view = View::NodeVisits;
   REQUIRE(tests::testEffect().render(frame));
   const double visits = tests::testEffect().statistics().visitsPerRay;
-  for (int view = 1; view <= static_cast<int>(View::Difference); ++view) {
+  for (int view = 1; view <= static_cast<int>(View::Redrawn); ++view) {
     frame.settings.view = static_cast<View>(view);
     const Poison poison;
     const State before = captureState();

@@ -109,7 +109,7 @@ TEST_CASE("tyndall-render writes statistics") {
     CHECK(pass.contains("name") != (pass.contains("ms") == pass.contains("skipped")));
   CHECK(stats.at("marched_samples") == kSize * kSize);
   CHECK(stats.at("fixup_pixels") == 0);
-  CHECK(stats.size() == 10);
+  CHECK(stats.size() == 11);
 }
 
 TEST_CASE("with --supersample an EXR keeps every pixel and a PNG their mean") {
