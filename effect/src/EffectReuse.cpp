@@ -5,9 +5,10 @@
 // Temporal reuse (Frame::reuse; Lin et al. 2013). A view's picture, inscatter and transmittance, and its lights'
 // epipolar textures are kept from frame to frame:
 //
-//   for each light:   depth, maps, objects --> [changes] --> changed slices --> the passes of Epipolar.cpp, up to
-//                     [interpolate], over those slices
-//   for each light:   changed slices, scene depth, last depth --> [mask] --> stencil
+//   for each light:   depth, maps --> [changes], of the slices that objects reach or of all --> changed segments and
+//   slices
+//                     --> the passes of Epipolar.cpp, up to [interpolate], over those
+//   for each light:   changed segments, scene depth, last depth --> [mask] --> stencil
 //   for each light:   epipolar inscatter --> [unwarp], fix-up, where the stencil is set --> inscatter, transmittance
 //   inscatter, transmittance --> [composite] --> colour
 //
@@ -62,7 +63,7 @@ Status Effect::State::redraw(const Frame& frame, const FrameTextures& textures, 
   } else {
     if (Status s = drawLights(frame, textures, destination); !s) return s;
   }
-  if (picture != Redraw::All || frame.reuse.changes != Changes::Detect || frame.depth.multisampled) return {};
+  if (picture != Redraw::All || frame.settings.technique != Technique::Epipolar || frame.depth.multisampled) return {};
   return keepDepth(frame, view, false);
 }
 
@@ -88,7 +89,7 @@ Status Effect::State::redrawSlices(const Frame& frame, const FrameTextures& text
     return epipolar::prepare(passContext(), targets, recorder, scratch, in, frames);
   });
   if (!prepared) return prepared;
-  for (const DrawnLight& light : lights) // too much of one may have changed to be worth a mask
+  for (const DrawnLight& light : lights) // one may have turned out not to be kept
     if (view.light(light.index).redraw == Redraw::All) picture = Redraw::All;
   std::uint64_t masked = 0;
   if (picture == Redraw::Part)
@@ -121,6 +122,9 @@ Status Effect::State::maskChanges(const Frame& frame, const std::vector<DrawnLig
     if (history.redraw == Redraw::Nothing && !compares) continue;
     upload(2, &history.geometry.block, sizeof history.geometry.block);
     bindTexture(passContext(), gl::Unit::ChangedSlices, gl::TEXTURE_2D, history.changedSlices);
+    bindTexture(passContext(), gl::Unit::ChangedSegments, gl::TEXTURE_2D, history.changedSegments);
+    bindTexture(passContext(), gl::Unit::SampleEnds, gl::TEXTURE_2D, history.sampleEnds);
+    bindTexture(passContext(), gl::Unit::SliceTable, gl::TEXTURE_2D, history.geometry.table);
     bool ok = true;
     masked += recorder.countWritten([&] {
       ok = recorder.run(light.name + " mask", [&] { return changes::mask(passContext(), light.variant, compares); });

@@ -58,7 +58,7 @@ Redraw ViewHistory::plan(const FrameKey& key, const Frame& frame) {
   const bool inParts = key.settings.technique == Technique::Epipolar && !frame.depth.multisampled &&
                        !std::isfinite(key.settings.spreadThreshold) && !key.drawn.empty();
   const bool sameDepth = detects ? isStated(frame.depth.version, depthVersion_) : frame.objects.empty();
-  all = all || (!sameDepth && (!inParts || (detects && !keepsDepth)));
+  all = all || (!sameDepth && (!inParts || !keepsDepth));
   while (lights_.size() < frame.lights.size())
     lights_.push_back(std::make_unique<LightHistory>(gl_));
   bool part = !sameDepth;
@@ -71,7 +71,6 @@ Redraw ViewHistory::plan(const FrameKey& key, const Frame& frame) {
   mayReuse_ = valid_;
   key_ = key;
   picture_ = all ? Redraw::All : part ? Redraw::Part : Redraw::Nothing;
-  keepsDepth = keepsDepth && (detects || picture_ == Redraw::Nothing);
   return picture_;
 }
 
@@ -80,14 +79,15 @@ void ViewHistory::planLight(const FrameKey& key, std::size_t i, const Frame& fra
   LightHistory& light = *lights_[index];
   const std::uint64_t version = frame.lights[index].shadow.version;
   const bool hasMap = frame.lights[index].shadow.texture != 0, detects = frame.reuse.changes == Changes::Detect;
-  light.comparesEnds = detects && !isStated(frame.depth.version, depthVersion_);
-  light.comparesRows = detects && hasMap && !isStated(version, light.mapVersion);
-  const bool changes = detects ? light.comparesEnds || light.comparesRows : !frame.objects.empty();
+  const bool moves = !frame.objects.empty();
+  light.comparesEnds = detects ? !isStated(frame.depth.version, depthVersion_) : moves;
+  light.comparesRows = hasMap && (detects ? !isStated(version, light.mapVersion) : moves);
+  const bool changes = light.comparesEnds || light.comparesRows;
   const bool kept = sameFrame && light.valid && same(key.lights[i], light.key);
   light.redraw = !kept ? Redraw::All : changes || frame.reuse.refreshFrames > 0 ? Redraw::Part : Redraw::Nothing;
   light.key = key.lights[i];
   light.mapVersion = version;
-  light.slices = light.changed = 0;
+  light.segments = light.changed = 0;
 }
 
 void ViewHistory::finish(const Frame& frame, bool drawn) {
@@ -116,7 +116,7 @@ void ViewHistory::judge() {
 double ViewHistory::redrawnShare() {
   if (picture_ == Redraw::All) return 1;
   if (picture_ == Redraw::Nothing) return 0;
-  std::uint64_t slices = 0, changed = 0;
+  std::uint64_t segments = 0, changed = 0;
   for (const std::size_t index : key_.drawn) {
     LightHistory& light = *lights_[index];
     if (light.changed < 0) {
@@ -124,10 +124,10 @@ double ViewHistory::redrawnShare() {
       gl_.GetQueryObjectui64v(light.count.name(), gl::QUERY_RESULT, &count);
       light.changed = static_cast<int>(count);
     }
-    slices += static_cast<std::uint64_t>(light.slices);
+    segments += static_cast<std::uint64_t>(light.segments);
     changed += static_cast<std::uint64_t>(light.changed);
   }
-  return slices > 0 ? static_cast<double>(changed) / static_cast<double>(slices) : 0;
+  return segments > 0 ? static_cast<double>(changed) / static_cast<double>(segments) : 0;
 }
 
 std::uint64_t ViewHistory::bytes() const {

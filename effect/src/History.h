@@ -38,14 +38,14 @@ struct LightHistory {
 
   // What this frame does with it.
   Redraw redraw = Redraw::All;
-  bool comparesEnds = false, comparesRows = false; ///< Part: else Frame::objects tells what moved
-  int slices = 0, changed = 0;                     ///< and how many are drawn; < 0: `count` knows
+  bool comparesEnds = false, comparesRows = false;
+  int segments = 0, changed = 0; ///< of 16 samples, and how many are drawn; < 0: `count` knows
   gl::Query count;
 
   // What its passes hand to one another, as they run for all lights in turn.
   passes::slices::Out geometry;
   passes::rows::Out row;
-  gl::Uint sampleEnds = 0, inscatter = 0, changedSlices = 0;
+  gl::Uint sampleEnds = 0, inscatter = 0, changedSlices = 0, changedSegments = 0;
 
   std::uint64_t bytes() const;
 };

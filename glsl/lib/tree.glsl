@@ -40,6 +40,8 @@ struct RowLine {
   int evenLevel;  // coarsest level at which a line stands for the airlight over a node
 };
 
+const int kMostEven = 4; // changedParts.frag counts on nodes of 256 texels at most to be taken by their averages
+
 struct RowWalk {
   int index;
   float u, depth;
@@ -63,7 +65,7 @@ void startRow(Airlight light, ViewSegment segment, int slice, out RowLine line, 
   line.firstWhole = int(ceil(line.begin));
   // The longest texel of a projection that may be a perspective one.
   float texel = (segment.s1 - segment.s0) * line.inverse * max(segment.w0 / segment.w1, segment.w1 / segment.w0);
-  line.evenLevel = int(floor(0.5 * log2(clamp(evenLength(light, spread.y) / max(texel, 1e-30), 1.0, 1e9))));
+  line.evenLevel = min(int(floor(0.5 * log2(clamp(evenLength(light, spread.y) / max(texel, 1e-30), 1.0, 1e9)))), kMostEven);
 #ifdef TINT_SUMS
   line.tintSums = lowRank.valid;
 #if FADES

@@ -1,52 +1,39 @@
-// Changed slices: those of which a sample's end or a texel of a row is not what it was in the last frame. Two steps:
-// parts of slices, then (FOLD) slices, where what has not changed is discarded, so that the others can be counted.
-// Reads sampleEnds (ENDS 1) and what rows hold (ROWS 1), each with the last frame's, or the parts. Writes slices x 32, or slices x 1: 1.
+// Changed slices: from which to before which segment any of eight slices has changed, by whole chunks, and whether their rows
+// have: what changedStrips.vert and strips.vert draw; and whether the slice's own row has. Reads changedSegments and changedParts
+// (ROWS 1). Writes slices x 1: first segment, one past the last (0, 0: none), 1 for rows, 1 for the own row.
 #include "shared.glsl"
 #include "lib/slices.glsl"
 #include "lib/rows.glsl"
 
-const int kParts = 32;
-layout(location = 0) out vec4 outChanged;
-
-#ifdef FOLD
-
-uniform sampler2D changedParts;
-
-void main() {
-  int slice = int(gl_FragCoord.x);
-  bool changed = slice >= refresh.x && slice < refresh.y;
-  for (int i = 0; i < kParts; ++i) changed = changed || texelFetch(changedParts, ivec2(slice, i), 0).r > 0.0;
-  if (!changed) discard;
-  outChanged = vec4(1.0);
-}
-
-#else
-
-#if ENDS
-uniform sampler2D sampleEnds;
-uniform sampler2D lastSampleEnds;
-#endif
+uniform sampler2D changedSegments;
 #if ROWS
-uniform sampler2D rowStates; // rowDepths, or rowHashes where those do not hold all that decides
-uniform sampler2D lastRowStates;
+uniform sampler2D changedParts;
 #endif
+layout(location = 0) out vec4 outRange;
 
-bool differs(sampler2D now, sampler2D last, ivec2 at) {
-  return any(notEqual(floatBitsToInt(texelFetch(now, at, 0)), floatBitsToInt(texelFetch(last, at, 0))));
-}
-
-void main() {
-  int slice = int(gl_FragCoord.x), part = int(gl_FragCoord.y);
+bool hasRowChanged(int slice) {
   bool changed = false;
-#if ENDS
-  for (int i = part; i < sliceSamples(slice) && !changed; i += kParts) changed = differs(sampleEnds, lastSampleEnds, ivec2(slice, i));
-#endif
 #if ROWS
   for (int view = 0; view < march.y; ++view)
-    for (int i = part; i < rowTexels(view, slice) / 4 && !changed; i += kParts)
-      changed = differs(rowStates, lastRowStates, ivec2(i, rowOf(view, slice)));
+    for (int part = 0; part < (rowTexels(view, slice) + 255) / 256; ++part) {
+      vec2 bounds = texelFetch(changedParts, ivec2(part, rowOf(view, slice)), 0).rg;
+      changed = changed || bounds.x <= bounds.y;
+    }
 #endif
-  outChanged = vec4(changed ? 1.0 : 0.0);
+  return changed;
 }
 
-#endif
+void main() {
+  int group = int(gl_FragCoord.x) & ~7, first = grid.y, last = 0;
+  bool rows = false, own = hasRowChanged(int(gl_FragCoord.x));
+  for (int slice = group; slice < min(group + 8, grid.x); ++slice) {
+    rows = rows || hasRowChanged(slice);
+    for (int i = 0; i < grid.y / 16; ++i)
+      if (texelFetch(changedSegments, ivec2(slice, i), 0).r > 0.0) {
+        first = min(first, i);
+        last = max(last, i + 1);
+      }
+  }
+  vec2 range = last > 0 ? vec2(float(first & ~3), float((last + 3) & ~3)) : vec2(0.0);
+  outRange = vec4(range, rows ? 1.0 : 0.0, own ? 1.0 : 0.0);
+}

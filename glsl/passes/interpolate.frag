@@ -19,6 +19,9 @@ uniform sampler2D extra;
 uniform sampler2D extraGreen;
 uniform sampler2D extraBlue;
 #endif
+#ifdef CHANGED
+uniform sampler2D changedSegments;
+#endif
 layout(location = 0) out vec4 outInscatter;
 
 // Inscatter of a marked sample: bit `bit` of segment s of the chunk.
@@ -35,6 +38,9 @@ vec3 marchedAt(int slice, int chunk, int offset, ivec4 masks, int s, int bit) {
 
 void main() {
   int slice = int(gl_FragCoord.x), index = int(gl_FragCoord.y), samples = sliceSamples(slice);
+#ifdef CHANGED
+  if (texelFetch(changedSegments, ivec2(slice, index >> 4), 0).r == 0.0) discard;
+#endif
   int chunk = index >> 6, s = (index >> 4) & 3, bit = index & 15;
   ivec4 masks = masksOf(texelFetch(marks, ivec2(slice, chunk), 0));
   int offset = int(texelFetch(extraOffsets, ivec2(slice, chunk), 0).r);

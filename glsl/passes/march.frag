@@ -1,6 +1,6 @@
 // March: inscatter of one light, through the shadow views of a draw, at the regular march samples, the first of each segment: along
 // the slice's row and its tree. Reads slice table, sampleEnds, row textures. Writes marched: slices x segments, inscatter
-// without the light's colour, R32F (monochrome) or RGBA16F with it; added up over the draws.
+// without the light's colour, R32F (monochrome) or RGBA16F with it; added up over the draws. CHANGED: only changedSegments.
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
@@ -11,11 +11,21 @@
 #include "lib/row.glsl"
 
 uniform sampler2D sampleEnds;
+#ifdef CHANGED
+uniform sampler2D changedSegments;
+#endif
 layout(location = 0) out vec4 outInscatter;
 
 void main() {
   int slice = int(gl_FragCoord.x), samples = sliceSamples(slice), index = 16 * int(gl_FragCoord.y);
   float end = index < samples ? texelFetch(sampleEnds, ivec2(slice, index), 0).r : 0.0;
+#ifdef CHANGED
+  bool changed = index < samples && texelFetch(changedSegments, ivec2(slice, index / 16), 0).r > 0.0;
+  if (!changed) end = 0.0; // no walk
+#endif
   Ray ray = cameraRay(samplePosition(sliceEnds(slice), samples, float(index)));
+#ifdef CHANGED
+  if (!changed) discard;
+#endif
   outInscatter = vec4(storedLight(rowShadowedLight(ray, 0.0, max(end, 0.0), slice), ray), 0.0);
 }

@@ -15,6 +15,9 @@
 uniform sampler2D sampleEnds;
 uniform sampler2D marks;
 uniform sampler2D extraOffsets;
+#ifdef CHANGED
+uniform sampler2D changedSegments;
+#endif
 layout(location = 0) out vec4 outFirst;
 #if !MONOCHROME || GLASS
 layout(location = 1) out vec4 outGreen;
@@ -69,6 +72,12 @@ void main() {
   ivec4 first = runFirst(index), last = runLast(index);
   vec3 stored[4] = vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
   bvec4 waiting = notEqual(index, ivec4(kNone));
+#ifdef CHANGED
+  bool changed = false;
+  for (int k = 0; k < 4; ++k)
+    changed = changed || (waiting[k] && texelFetch(changedSegments, ivec2(slice, 4 * chunk + (index[k] >> 4)), 0).r > 0.0);
+  if (!changed) waiting = bvec4(false);
+#endif
   Light sum = Light(0.0);
   float from = 0.0;
   int run = -1;

@@ -7,7 +7,11 @@
 #ifdef CHANGED
 uniform sampler2D changedSlices;
 const int kWidth = 8;
-bool isDrawn(int line) { return texelFetch(changedSlices, ivec2(line % grid.x, 0), 0).r > 0.0; }
+#ifdef STRIPS_OF_ROWS
+bool isDrawn(int line) { return texelFetch(changedSlices, ivec2(line % grid.x, 0), 0).b > 0.0; }
+#else
+bool isDrawn(int line) { return texelFetch(changedSlices, ivec2(line, 0), 0).g > 0.0; }
+#endif
 #else
 const int kWidth = 64;
 bool isDrawn(int line) { return true; }

@@ -235,25 +235,25 @@ Settings settingsOf(Profile profile);
 enum class Changes {
   Unknown, ///< anything may have: the frame is drawn in full, and nothing is kept of it
   Detect,  ///< the effect compares them with the last frame's, but for those whose versions say that nothing changed
-  Objects, ///< only what Frame::objects names; versions are not looked at
+  Objects, ///< only what Frame::objects names, around which they are compared; versions are not looked at
 };
 
 /// Temporal reuse (Lin et al. 2013): light of the last frame is kept where nothing has changed. A frame that reuses is
 /// what it would be in full, to rounding. Camera, medium, settings, lights and sizes are compared by the effect: what a
 /// change of them touches is drawn anew. Only Technique::Epipolar redraws parts of a picture; by the other techniques,
-/// with a finite Settings::spreadThreshold or a multisampled depth any change redraws all of it, and a debug view
-/// always.
+/// with a finite Settings::spreadThreshold or a multisampled depth any change redraws all of it, as any debug view but
+/// Redrawn does. A light whose shadow views are too large to be marched at once is redrawn whole.
 struct Reuse {
   Changes changes = Changes::Unknown;
-  std::uint64_t view =
-      0; ///< which of the engine's views this is: each keeps a picture of its own, of the last 4 that were drawn
-  std::uint64_t frame =
-      0; ///< Changes::Objects: counts the view's frames; unless it is one more than at the last, all is drawn
-  /// Share of the slices of a light over which a change redraws all; where that goes on, frames are drawn in full and
-  /// nothing is kept of them, up to 16 at a time; 0 to 1.
+  /// Which of the engine's views this is: each has a picture of its own, the last 4 that were drawn are kept.
+  std::uint64_t view = 0;
+  /// Changes::Objects: counts the view's frames; unless it is one more than at the last, all is drawn.
+  std::uint64_t frame = 0;
+  /// Share of the slices' segments over which, where that goes on, frames are drawn in full and nothing is kept of
+  /// them, up to 16 at a time; 0 to 1.
   float fullShare = 0.6F;
-  int refreshFrames =
-      0; ///< redraw every slice once in so many frames, a part of them in each frame; 0: never; at most 65536
+  /// Redraw every slice once in so many frames, a part of them in each; 0: never; at most 65536.
+  int refreshFrames = 0;
 };
 
 /// A box that holds all of an object that moved, appeared or vanished, in the last frame and in this one. The same
@@ -308,8 +308,8 @@ struct Statistics {
   /// marched at once; march samples that are integrated together, up to four of a slice, count as one. Reading it waits
   /// for the GPU.
   std::uint64_t marchedSamples = 0;
-  /// Share of the slices, over all lights, that were marched: 1 for a frame drawn in full, 0 for one that only
-  /// composites what is kept. With Changes::Detect reading it waits for the GPU.
+  /// Share of the slices' segments, over all lights, that were marched: 1 for a frame drawn in full, 0 for one that
+  /// only composites what is kept. With Changes::Detect reading it waits for the GPU.
   double redrawnShare = 1;
   /// With View::NodeVisits what that view shows, as a mean over the image: nodes and groups of texels that a ray looks
   /// at, in all shadow views of the first light. Else 0.

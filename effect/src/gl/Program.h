@@ -33,6 +33,7 @@ enum class Unit : Uint {
   RowShares,
   RowMeans,
   RowMoments,
+  ChangedSegments,
   ExtraGreen = Inscatter, ///< no pass reads both
   ExtraBlue = Transmittance,
   ExtraOffsets = RowNodes,
@@ -50,14 +51,15 @@ enum class Unit : Uint {
   CoarserBlue = RowMoments,
   ChangedSlices = EpipolarInscatter, ///< of temporal reuse: none of what reads them reads those
   LastSampleEnds = Marks,
-  RowStates = RowDepths,
-  LastRowStates = RowNodes,
+  LastRowDepths = RowNodes,
+  RowHashes = RowTree,
+  LastRowHashes = RowShares,
   ChangedParts = Marched,
   LastDepth = Marched,
   ViewImage = Marched, ///< debug views run after the passes that read these, or read neither
   ViewExact = Extra,
   ViewMean = EpipolarInscatter,
-  Upload = RowMoments + 1, ///< where textures are made and filled, so that no other unit's texture is disturbed
+  Upload = ChangedSegments + 1, ///< where textures are made and filled, so that no other unit's texture is disturbed
 };
 
 inline constexpr const char* kFullScreen = "passes/fullscreen.vert";

@@ -5,13 +5,16 @@
 #include "passes/StencilTest.h"
 
 #include <algorithm>
+#include <array>
 
 namespace tyndall::passes::changes {
 
 namespace {
 
+constexpr const char* kParts = "passes/changedParts.frag";
+constexpr const char* kSegments = "passes/changedSegments.frag";
 constexpr const char* kSlices = "passes/changedSlices.frag";
-constexpr int kParts = 32; // of a slice
+constexpr int kPartTexels = 256;
 
 gl::Definitions comparing(gl::Definitions definitions, bool ends, bool rows) {
   definitions.emplace_back("ENDS", ends ? 1 : 0);
@@ -19,8 +22,8 @@ gl::Definitions comparing(gl::Definitions definitions, bool ends, bool rows) {
   return definitions;
 }
 
-gl::Definitions folding(gl::Definitions definitions) {
-  definitions.emplace_back("FOLD", 1);
+gl::Definitions hashed(gl::Definitions definitions) {
+  definitions.emplace_back("ROW_HASHES", 1);
   return definitions;
 }
 
@@ -38,59 +41,78 @@ glm::ivec4 refreshed(const SliceContext& context, int frame) {
   return {static_cast<int>(slices * turn / period), static_cast<int>(slices * (turn + 1) / period), 0, 0};
 }
 
+// Clears the target that was made last.
+void clear(const SliceContext& context, float red) {
+  const std::array<gl::Float, 4> colour = {red, 0, 0, 0};
+  context.gl.ClearBufferfv(gl::COLOR, 0, colour.data());
+}
+
+Status compareRows(SliceContext& context, const In& in, gl::Uint& parts) {
+  const bool hasHashes = in.rows.hashes != 0;
+  context.bind(gl::Unit::RowDepths, in.rows.depths);
+  context.bind(gl::Unit::LastRowDepths, in.lastRows.depths);
+  if (hasHashes) {
+    context.bind(gl::Unit::RowHashes, in.rows.hashes);
+    context.bind(gl::Unit::LastRowHashes, in.lastRows.hashes);
+  }
+  const int width = (context.slices.rowTexels + kPartTexels - 1) / kPartTexels;
+  if (Status s = context.target(Target::ChangedParts, width, context.rowRoom(), parts); !s) return s;
+  clear(context, 1); // nothing
+  context.gl.Viewport(0, 0, width, context.rows());
+  return context.drawRows("changed parts", kParts, hasHashes ? hashed(context.definitions) : context.definitions);
+}
+
 } // namespace
 
 Status findMoved(SliceContext& context, int frame) {
   const SliceInputs& in = context.inputs;
-  LightHistory& history = *in.history;
   const glm::ivec4 refresh = refreshed(context, frame);
-  std::vector<bool> moved = optics::movedSlices(*in.frame, *in.light, history.key.block, context.slices.geometry);
+  std::vector<bool> moved = optics::movedSlices(*in.frame, *in.light, in.history->key.block, context.slices.geometry);
   std::fill(moved.begin() + refresh.x, moved.begin() + refresh.y, true);
-  history.slices = context.slices.count;
-  history.changed = static_cast<int>(std::count(moved.begin(), moved.end(), true));
-  if (static_cast<float>(history.changed) > in.frame->reuse.fullShare * static_cast<float>(history.slices)) {
-    history.redraw = Redraw::All;
-    history.changed = history.slices;
-    return {};
+  for (std::size_t i = 0; i < moved.size(); i += 8) { // as changedSlices.frag has them: of eight slices
+    const auto begin = moved.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto end = moved.begin() + static_cast<std::ptrdiff_t>(std::min(i + 8, moved.size()));
+    std::fill(begin, end, std::find(begin, end, true) != end);
   }
-  std::vector<glm::vec4> texels(moved.size());
-  std::transform(moved.begin(), moved.end(), texels.begin(), [](bool m) { return glm::vec4(m ? 1.0F : 0.0F); });
-  return slices::uploadTable(context.pass, history.kept, Target::ChangedSlices, context.slices.count, 1, texels,
-                             context.changed);
+  std::vector<glm::vec4> texels(moved.size(), glm::vec4(0));
+  const auto segments = static_cast<float>(context.slices.samples / 16);
+  std::transform(moved.begin(), moved.end(), texels.begin(),
+                 [&](bool m) { return m ? glm::vec4(0, segments, 1, 1) : glm::vec4(0); });
+  return slices::uploadTable(context.pass, context.targets, Target::MovedSlices, context.slices.count, 1, texels,
+                             context.changedSlices);
 }
 
 Status compare(SliceContext& context, const In& in, int frame) {
   LightHistory& history = *context.inputs.history;
-  gl::Uint parts = 0;
+  const bool ends = in.lastSampleEnds != 0, rows = in.lastRows.depths != 0;
+  const gl::Definitions definitions = comparing(context.definitions, ends, rows);
+  gl::Uint parts = 0, segments = 0, slices = 0;
   context.slices.block.refresh = refreshed(context, frame);
   context.selectDraw(0);
   context.bindSlices();
-  if (in.lastSampleEnds) {
-    context.bind(gl::Unit::SampleEnds, in.sampleEnds);
-    context.bind(gl::Unit::LastSampleEnds, in.lastSampleEnds);
-  }
-  if (in.lastRows) {
-    context.bind(gl::Unit::RowStates, in.rows);
-    context.bind(gl::Unit::LastRowStates, in.lastRows);
-  }
   setBlend(context.pass, Blend::Replace);
-  if (Status s = context.target(Target::ChangedParts, context.slices.count, kParts, parts); !s) return s;
-  if (Status s =
-          context.draw("changes", kSlices, comparing(context.definitions, in.lastSampleEnds != 0, in.lastRows != 0));
-      !s)
-    return s;
-  context.bind(gl::Unit::ChangedParts, parts);
-  if (Status s = context.target(Target::ChangedSlices, context.slices.count, 1, context.changed); !s) return s;
-  constexpr std::array<gl::Float, 4> kNone = {0, 0, 0, 0};
-  context.gl.ClearBufferfv(gl::COLOR, 0, kNone.data());
-  history.slices = context.slices.count;
+  if (rows)
+    if (Status s = compareRows(context, in, parts); !s) return s;
+  context.bind(gl::Unit::SampleEnds, in.sampleEnds);
+  if (ends) context.bind(gl::Unit::LastSampleEnds, in.lastSampleEnds);
+  if (rows) context.bind(gl::Unit::ChangedParts, parts);
+  const int count = context.slices.count, along = context.slices.samples / 16;
+  if (Status s = context.target(Target::ChangedSegments, count, along, segments); !s) return s;
+  clear(context, 0);
+  history.segments = count * along;
   history.count = gl::Query(context.gl);
   history.changed = -1;
-  Status status;
-  if (!context.recorder.countInto(
-          history.count, [&] { status = context.draw("changed slices", kSlices, folding(context.definitions)); }))
+  Status drawn;
+  if (!context.recorder.countInto(history.count,
+                                  [&] { drawn = context.drawSlices("changed segments", kSegments, definitions); }))
     history.changed = 0; // a query of the engine's own is under way: not known
-  return status;
+  if (!drawn) return drawn;
+  context.bind(gl::Unit::ChangedSegments, segments);
+  if (Status s = context.target(Target::ChangedSlices, count, 1, slices); !s) return s;
+  if (Status s = context.draw("changed slices", kSlices, definitions); !s) return s;
+  context.changedSegments = segments;
+  context.changedSlices = slices;
+  return {};
 }
 
 bool mask(const PassContext& context, const exact::Variant& variant, bool comparesDepth) {
@@ -109,15 +131,19 @@ bool keepDepth(const PassContext& context, bool underMask) {
 
 std::vector<gl::Variant> variantsOf(const exact::Variant& variant) {
   const gl::Definitions definitions = exact::definitionsOf(variant);
-  std::vector<gl::Variant> all = {{kSlices, folding(definitions)},
-                                  {kSlices, comparing(definitions, true, false)},
-                                  {kSlices, comparing(definitions, false, true)},
-                                  {kSlices, comparing(definitions, true, true)},
-                                  {"passes/mask.frag", masking(variant, false)},
+  std::vector<gl::Variant> all = {{"passes/mask.frag", masking(variant, false)},
                                   {"passes/mask.frag", masking(variant, true)}};
-  if (variant.shadowViews == 0) {
-    all.erase(all.begin() + 2, all.begin() + 4);
-  }
+  const auto add = [&](const std::vector<gl::Variant>& some) { all.insert(all.end(), some.begin(), some.end()); };
+  const bool hasRows = variant.shadowViews > 0, hasHashes = variant.glass || variant.bilinear;
+  if (hasRows) add(inRows(kParts, hasHashes ? hashed(definitions) : definitions));
+  for (const bool ends : {false, true})
+    for (const bool rows : {false, true}) {
+      if (rows && !hasRows) continue;
+      add(inSlices(kSegments, comparing(definitions, ends, rows)));
+      all.push_back({kSlices, comparing(definitions, ends, rows)});
+    }
+  for (const Along along : {Along::Samples, Along::Rows})
+    all.push_back(inSlices("passes/copyTexels.frag", {}, along)[1]);
   return all;
 }
 

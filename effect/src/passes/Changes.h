@@ -1,21 +1,22 @@
-// Changes: which slices and pixels are not what they were in the last frame (Frame::reuse; glsl/passes/changedSlices,
-// mask, keepDepth, changedStrips).
+// Changes: which slices, segments and pixels are not what they were in the last frame (Frame::reuse;
+// glsl/passes/changedSlices, mask, keepDepth, changedStrips).
 #pragma once
 
-#include "passes/SliceContext.h"
+#include "passes/Rows.h"
 
 namespace tyndall::passes::changes {
 
-/// What Frame::objects reaches, and what is due to be refreshed, as flags in context.changed; or, if that is too much,
-/// the light's Redraw becomes All.
+/// The slices that Frame::objects reaches, and those due to be refreshed: only they are to be compared, and until then
+/// drawn.
 Status findMoved(SliceContext& context, int frame);
 
 struct In {
-  gl::Uint sampleEnds = 0, lastSampleEnds = 0; ///< 0, 0: not to be compared
-  gl::Uint rows = 0, lastRows = 0;             ///< depths or hashes; likewise
+  gl::Uint sampleEnds = 0, lastSampleEnds = 0; ///< the last ones 0: not to be compared
+  rows::Out rows, lastRows;                    ///< likewise
 };
 
-/// The same by comparison; the light's `count` will know how many slices.
+/// Compares, and has only slices and segments drawn from then on that differ or are due; the light's `count` will know
+/// how many segments.
 Status compare(SliceContext& context, const In& in, int frame);
 
 /// Draws the pixels that the bound flags, and the depth, touch. False if the shader does not build.

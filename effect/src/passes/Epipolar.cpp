@@ -14,6 +14,7 @@
 #include "passes/Unwarp.h"
 
 #include <cmath>
+#include <utility>
 
 // One light. Boxes are passes, the rest are textures (Targets.cpp); [rows] and both marches run once for all shadow
 // views, or for some at a time (SliceContext::draws).
@@ -99,43 +100,53 @@ Status runTree(SliceContext& context) {
   return slice_view::run(context, {});
 }
 
-// Sample ends and row depths of this frame, beside the last one's, and which slices differ.
+// Sample ends and row depths of this frame beside the last one's, and what differs: of all slices, and the last frame's
+// are then given up; or of those that objects reach, whose own are then copied over the last frame's.
 Status makeAndCompare(SliceContext& context, Interpolated& made, int frame) {
   LightHistory& history = *context.inputs.history;
-  changes::In in;
-  made.samples.ends = history.sampleEnds;
-  made.rows = history.row;
-  if (history.comparesEnds) {
-    history.endsSide = 1 - history.endsSide;
+  const bool some = context.inputs.frame->reuse.changes == Changes::Objects;
+  if (some)
+    if (Status s = changes::findMoved(context, frame); !s) return s;
+  const gl::Uint moved = context.changedSlices;
+  const bool ends = history.comparesEnds, rows = history.comparesRows;
+  changes::In in{history.sampleEnds, 0, history.row, {}};
+  const auto changeSides = [&] {
+    if (ends) history.endsSide = 1 - history.endsSide;
+    if (rows) history.rowsSide = 1 - history.rowsSide;
+  };
+  changeSides();
+  if (ends) {
     if (Status s = samples::runEnds(context, made.samples); !s) return s;
     in.sampleEnds = made.samples.ends;
     in.lastSampleEnds = history.sampleEnds;
   }
-  if (history.comparesRows) {
-    history.rowsSide = 1 - history.rowsSide;
+  if (rows) {
+    made.rows = {};
     if (Status s = rows::runDepths(context, {0, false, true}, made.rows); !s) return s;
-    const bool hashed = made.rows.hashes != 0;
-    in.rows = hashed ? made.rows.hashes : made.rows.depths;
-    in.lastRows = hashed ? history.row.hashes : history.row.depths;
+    in.rows = made.rows;
+    in.lastRows = history.row;
   }
   if (Status s = changes::compare(context, in, frame); !s) return s;
-  return history.comparesRows ? rows::runTree(context, {0}, made.rows) : Status{};
-}
-
-// The same of what has moved, in place.
-Status makeMoved(SliceContext& context, Interpolated& made) {
-  if (Status s = samples::runEnds(context, made.samples); !s) return s;
-  return context.draws() == 1 ? rows::run(context, {0}, made.rows) : Status{};
+  if (some) {
+    const gl::Uint changed = std::exchange(context.changedSlices, moved);
+    changeSides();
+    if (ends)
+      if (Status s = samples::copyEnds(context, in.sampleEnds, made.samples); !s) return s;
+    if (rows)
+      if (Status s = rows::copyDepths(context, in.rows, made.rows); !s) return s;
+    context.changedSlices = changed;
+  }
+  if (!ends) made.samples.ends = history.sampleEnds;
+  if (!rows) made.rows = history.row;
+  return rows ? rows::runTree(context, {0}, made.rows) : Status{};
 }
 
 // All of them; what the next frame compares with its own is kept, the rest of what was kept given up.
 Status makeAll(SliceContext& context, Interpolated& made) {
   LightHistory& history = *context.inputs.history;
-  const bool detects = context.inputs.frame->reuse.changes == Changes::Detect;
-  history.slices = history.changed = context.slices.count;
-  context.changed = 0;
+  history.segments = history.changed = context.slices.count * context.slices.samples / 16;
   if (Status s = samples::runEnds(context, made.samples); !s) return s;
-  return context.draws() == 1 ? rows::run(context, {0, false, detects}, made.rows) : Status{};
+  return context.draws() == 1 ? rows::run(context, {0, false, true}, made.rows) : Status{};
 }
 
 } // namespace
@@ -151,32 +162,23 @@ Status prepare(const PassContext& pass, Targets& targets, PassRecorder& recorder
                const SliceInputs& inputs, int frame) {
   LightHistory& history = *inputs.history;
   if (history.redraw == Redraw::Nothing) {
-    history.slices = history.geometry.count;
+    history.segments = history.geometry.count * history.geometry.samples / 16;
     recorder.skip(inputs.name, "nothing has changed: its slices are kept");
     return {};
   }
   SliceContext context = contextOf(pass, targets, recorder, scratch, inputs);
   Interpolated made;
   if (Status s = makeSlices(context); !s) return s;
-  const bool detects = inputs.frame->reuse.changes == Changes::Detect;
-  if (history.redraw == Redraw::Part) {
-    const bool filtered = inputs.variant.glass || inputs.variant.bilinear;
-    if (detects && history.comparesRows && (context.draws() > 1 || (filtered && history.row.hashes == 0)))
-      history.redraw = Redraw::All; // the last frame's rows are not at hand
-    else if (!detects)
-      if (Status s = changes::findMoved(context, frame); !s) return s;
-  }
-  Status prepared = history.redraw == Redraw::All ? makeAll(context, made)
-                    : detects                     ? makeAndCompare(context, made, frame)
-                                                  : makeMoved(context, made);
+  if (context.draws() > 1) history.redraw = Redraw::All; // rows are not at hand together, nor kept
+  Status prepared = history.redraw == Redraw::All ? makeAll(context, made) : makeAndCompare(context, made, frame);
   if (prepared) prepared = runToInterpolate(context, made);
   if (!prepared) return prepared;
-  if (!detects) made.rows.hashes = 0; // not the whole row's
   history.geometry = std::move(context.slices);
   history.row = made.rows;
   history.sampleEnds = made.samples.ends;
   history.inscatter = made.inscatter;
-  history.changedSlices = context.changed;
+  history.changedSlices = context.changedSlices;
+  history.changedSegments = context.changedSegments;
   if (history.redraw == Redraw::All)
     for (Targets* kept : {&history.kept, &history.ends[0], &history.ends[1], &history.rows[0], &history.rows[1]})
       kept->endFrame();
@@ -194,7 +196,7 @@ Status finish(const PassContext& pass, Targets& targets, PassRecorder& recorder,
 
 std::vector<gl::Variant> allVariants() {
   std::vector<gl::Variant> all = slice_view::allVariants();
-  for (const gl::Variant& offsets : inSlices("passes/offsets.frag", {}))
+  for (const gl::Variant& offsets : inSlices("passes/offsets.frag", {}, Along::Anything))
     all.push_back(offsets);
   for (const exact::Variant& variant : exact::allVariants()) {
     if (variant.multisampled || variant.lightKind == 3) continue;
@@ -203,7 +205,8 @@ std::vector<gl::Variant> allVariants() {
     const gl::Definitions definitions = exact::definitionsOf(variant);
     const auto add = [&](const std::vector<gl::Variant>& some) { all.insert(all.end(), some.begin(), some.end()); };
     for (const char* fragment : {"sampleEnds", "marks", "march", "refine", "interpolate"})
-      add(inSlices(("passes/" + std::string(fragment) + ".frag").c_str(), definitions));
+      add(inSlices(("passes/" + std::string(fragment) + ".frag").c_str(), definitions,
+                   std::string(fragment) == "march" ? Along::SegmentsAndOne : Along::Samples));
     add(inStrips("passes/marchExtra.frag", definitions));
     add(changes::variantsOf(variant));
     for (const gl::Variant& unwarped : unwarp::variantsOf(variant))

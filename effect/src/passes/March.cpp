@@ -11,7 +11,7 @@ Status run(SliceContext& context, const In& in, Out& out) {
   setBlend(context.pass, in.draw == 0 ? Blend::Replace : Blend::AddAll);
   if (Status s = context.target(Target::Marched, slices.count, slices.samples / 16 + 1, out.marched); !s) return s;
   context.recorder.countMarched(slices.regularSamples);
-  return context.drawSlices("march", "passes/march.frag", context.definitions);
+  return context.drawSlices("march", "passes/march.frag", context.definitions, Along::SegmentsAndOne);
 }
 
 } // namespace tyndall::passes::march

@@ -12,7 +12,7 @@ Status run(SliceContext& context, const In& in, Out& out) {
   if (Status s = context.drawSlices("refine", "passes/refine.frag", context.definitions); !s) return s;
   context.bind(gl::Unit::Marks, out.marks);
   if (Status s = context.target(Target::ExtraOffsets, slices.count, slices.samples / 64 + 1, out.offsets); !s) return s;
-  return context.drawSlices("offsets", "passes/offsets.frag", {});
+  return context.drawSlices("offsets", "passes/offsets.frag", {}, Along::Anything);
 }
 
 } // namespace tyndall::passes::refine

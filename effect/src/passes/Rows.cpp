@@ -117,6 +117,25 @@ Status runPairs(SliceContext& context, const In& in, Out& out) {
   return {};
 }
 
+Status copyDepths(SliceContext& context, const Out& from, Out& to) {
+  struct Copy {
+    Target which;
+    gl::Uint from;
+    gl::Uint& to;
+  };
+  const int room = context.slices.rowTexels, drawn = context.slices.block.grid.z;
+  setBlend(context.pass, Blend::Replace);
+  for (const Copy& copy :
+       {Copy{Target::RowDepths, from.depths, to.depths}, Copy{Target::RowShares, from.shares, to.shares},
+        Copy{Target::RowHashes, from.hashes, to.hashes}}) {
+    if (copy.from == 0) continue;
+    context.bind(gl::Unit::ViewImage, copy.from);
+    if (Status s = target(context, copy.which, room / 4, drawn / 4, copy.to); !s) return s;
+    if (Status s = context.drawRows("keep rows", "passes/copyTexels.frag", {}); !s) return s;
+  }
+  return {};
+}
+
 gl::Definitions definitionsOf(const exact::Variant& variant, bool tintSums) {
   gl::Definitions definitions = exact::definitionsOf(variant);
   if (tintSums) definitions.emplace_back("TINT_SUMS", 1);

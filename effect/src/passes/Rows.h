@@ -32,6 +32,9 @@ Status runPairs(SliceContext& context, const In& in, Out& out);
 /// The definitions of the walk along rows, and of what is made for it.
 gl::Definitions definitionsOf(const exact::Variant& variant, bool tintSums);
 
+/// Copies depths, shares and hashes of the slices that are drawn into `to`, which this makes the light's own.
+Status copyDepths(SliceContext& context, const Out& from, Out& to);
+
 /// All programs of a light.
 std::vector<gl::Variant> variantsOf(const exact::Variant& variant);
 

@@ -12,6 +12,14 @@ Status runEnds(SliceContext& context, Out& out) {
   return context.drawSlices("sample ends", "passes/sampleEnds.frag", context.definitions);
 }
 
+Status copyEnds(SliceContext& context, gl::Uint from, Out& to) {
+  setBlend(context.pass, Blend::Replace);
+  context.bind(gl::Unit::ViewImage, from);
+  if (Status s = context.target(Target::SampleEnds, context.slices.count, context.slices.samples, to.ends); !s)
+    return s;
+  return context.drawSlices("keep ends", "passes/copyTexels.frag", {});
+}
+
 Status runMarks(SliceContext& context, Out& out) {
   const slices::Out& slices = context.slices;
   context.bindSlices();

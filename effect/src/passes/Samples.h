@@ -13,6 +13,8 @@ struct Out {
 
 /// The ends of all slices, or of those that have changed.
 Status runEnds(SliceContext& context, Out& out);
+/// Copies the ends of the slices that are drawn into `to`, which this makes the light's own.
+Status copyEnds(SliceContext& context, gl::Uint from, Out& to);
 Status runMarks(SliceContext& context, Out& out);
 
 } // namespace tyndall::passes::samples

@@ -29,14 +29,15 @@ constexpr const char* kChangedStrips = "passes/changedStrips.vert";
 constexpr const char* kStrips = "passes/strips.vert";
 constexpr int kStripLines = 64, kChangedLines = 8; // of a strip
 
-gl::Definitions withRows(gl::Definitions definitions) {
-  definitions.emplace_back("CHANGED_ROWS", 1);
-  return definitions;
-}
-
 gl::Definitions withChanges(gl::Definitions definitions) {
   definitions.emplace_back("CHANGED", 1);
   return definitions;
+}
+
+gl::Variant overChanges(const std::string& fragment, const gl::Definitions& definitions, Along along) {
+  gl::Definitions with = withChanges(definitions);
+  with.emplace_back("ALONG", static_cast<int>(along));
+  return {fragment, with, kChangedStrips};
 }
 
 } // namespace
@@ -87,32 +88,36 @@ Status SliceContext::draw(const std::string& name, const std::string& fragment, 
   return ok ? Status{} : shaderError();
 }
 
-Status SliceContext::drawSlices(const std::string& name, const std::string& fragment, const gl::Definitions& with) {
-  if (!changed) return draw(name, fragment, with);
-  bind(gl::Unit::ChangedSlices, changed);
+Status SliceContext::drawSlices(const std::string& name, const std::string& fragment, const gl::Definitions& with,
+                                Along along) {
+  if (!changedSlices) return draw(name, fragment, with);
+  bindChanges();
+  const int lines = along == Along::Rows ? rows() : slices.count;
   const bool ok = recorder.run(inputs.name + " " + name, [&] {
-    return passes::drawStrips(pass, {fragment, with, kChangedStrips}, slices.count, kChangedLines);
+    return passes::drawStrips(pass, overChanges(fragment, with, along), lines, kChangedLines);
   });
   return ok ? Status{} : shaderError();
 }
 
 Status SliceContext::drawRows(const std::string& name, const std::string& fragment, const gl::Definitions& with) {
-  if (!changed) return draw(name, fragment, with);
-  bind(gl::Unit::ChangedSlices, changed);
-  const bool ok = recorder.run(inputs.name + " " + name, [&] {
-    return passes::drawStrips(pass, {fragment, withRows(with), kChangedStrips}, rows(), kChangedLines);
-  });
-  return ok ? Status{} : shaderError();
+  return drawSlices(name, fragment, with, Along::Rows);
 }
 
 Status SliceContext::drawStrips(const std::string& name, const std::string& fragment, const gl::Definitions& with,
                                 int lines, bool counted) {
-  if (changed) bind(gl::Unit::ChangedSlices, changed);
-  const gl::Variant variant{fragment, changed ? withChanges(with) : with, kStrips};
-  const auto strips = [&] { return passes::drawStrips(pass, variant, lines, changed ? kChangedLines : kStripLines); };
+  if (changedSlices) bindChanges();
+  const gl::Variant variant{fragment, changedSlices ? withChanges(with) : with, kStrips};
+  const auto strips = [&] {
+    return passes::drawStrips(pass, variant, lines, changedSlices ? kChangedLines : kStripLines);
+  };
   const std::string title = inputs.name + " " + name;
   const bool ok = counted ? recorder.runCounted(title, strips) : recorder.run(title, strips);
   return ok ? Status{} : shaderError();
+}
+
+void SliceContext::bindChanges() const {
+  bind(gl::Unit::ChangedSlices, changedSlices);
+  if (changedSegments) bind(gl::Unit::ChangedSegments, changedSegments);
 }
 
 // What the next frame needs is the light's own. Rows that do not stand in one texture are made anew.
@@ -131,7 +136,9 @@ Targets& SliceContext::holderOf(Target which) const {
   case Target::RowMoments:
     return draws() == 1 ? history->kept : targets;
   case Target::SliceTable:
+  case Target::Marched:
   case Target::EpipolarInscatter:
+  case Target::ChangedSegments:
   case Target::ChangedSlices:
     return history->kept;
   default:
@@ -139,12 +146,12 @@ Targets& SliceContext::holderOf(Target which) const {
   }
 }
 
-std::vector<gl::Variant> inSlices(const char* fragment, const gl::Definitions& definitions) {
-  return {{fragment, definitions}, {fragment, definitions, kChangedStrips}};
+std::vector<gl::Variant> inSlices(const char* fragment, const gl::Definitions& definitions, Along along) {
+  return {{fragment, definitions}, overChanges(fragment, definitions, along)};
 }
 
 std::vector<gl::Variant> inRows(const char* fragment, const gl::Definitions& definitions) {
-  return {{fragment, definitions}, {fragment, withRows(definitions), kChangedStrips}};
+  return inSlices(fragment, definitions, Along::Rows);
 }
 
 std::vector<gl::Variant> inStrips(const char* fragment, const gl::Definitions& definitions) {

@@ -34,6 +34,9 @@ struct SliceInputs {
   std::uint64_t maskedPixels = 0; ///< and how many they are
 };
 
+/// What a target of slices has along y (glsl/passes/changedStrips).
+enum class Along { Samples, SegmentsAndOne, Anything, Rows };
+
 struct SliceContext {
   const PassContext& pass;
   Targets& targets;
@@ -43,7 +46,8 @@ struct SliceContext {
   const gl::Functions& gl = pass.gl;
   gl::Definitions definitions = exact::definitionsOf(inputs.variant);
   slices::Out slices = {};
-  gl::Uint changed = 0; ///< flags of the slices that are drawn, slices x 1; 0: all are
+  /// Temporal reuse: the slices and, if known, segments that are drawn (glsl/passes/changedSlices); 0: all are.
+  gl::Uint changedSlices = 0, changedSegments = 0;
 
   /// True if the epipolar textures hold three channels.
   bool isColoured() const { return !inputs.variant.monochrome || inputs.variant.glass; }
@@ -77,18 +81,21 @@ struct SliceContext {
   Status draw(const std::string& name, const std::string& fragment, const gl::Definitions& with);
   /// Draws those that have changed, if that is known: slices along x, rows along y, or, where each has a length of its
   /// own, strips (passes/strips.vert).
-  Status drawSlices(const std::string& name, const std::string& fragment, const gl::Definitions& with);
+  Status drawSlices(const std::string& name, const std::string& fragment, const gl::Definitions& with,
+                    Along along = Along::Samples);
   Status drawRows(const std::string& name, const std::string& fragment, const gl::Definitions& with);
   Status drawStrips(const std::string& name, const std::string& fragment, const gl::Definitions& with, int lines,
                     bool counted);
 
   Targets& holderOf(Target which) const;
+  void bindChanges() const;
 
   Status shaderError() const { return {StatusCode::ShaderError, "a shader did not build: " + pass.programs.error()}; }
 };
 
 /// The same program over all, and over what has changed.
-std::vector<gl::Variant> inSlices(const char* fragment, const gl::Definitions& definitions);
+std::vector<gl::Variant> inSlices(const char* fragment, const gl::Definitions& definitions,
+                                  Along along = Along::Samples);
 std::vector<gl::Variant> inRows(const char* fragment, const gl::Definitions& definitions);
 std::vector<gl::Variant> inStrips(const char* fragment, const gl::Definitions& definitions);
 
