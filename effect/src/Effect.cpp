@@ -100,7 +100,11 @@ Status Effect::compileAll() {
       if (!state_->programs.use(v.fragment, v.definitions, v.vertex)) return state_->shaderError();
   for (const char* fragment : {"passes/composite.frag", "passes/copyImage.frag"})
     if (!state_->programs.use(fragment, {})) return state_->shaderError();
-  if (!state_->programs.use("passes/keepDepth.frag", {{"DEPTH_MULTISAMPLED", 0}})) return state_->shaderError();
+  for (const char* vertex : {gl::kFullScreen, "passes/tiles.vert"}) {
+    if (!state_->programs.use("passes/keepDepth.frag", {{"DEPTH_MULTISAMPLED", 0}}, vertex))
+      return state_->shaderError();
+    if (!state_->programs.use("passes/viewFixup.frag", {}, vertex)) return state_->shaderError();
+  }
   return {};
 }
 

@@ -8,13 +8,19 @@
 //   for each light:   depth, maps --> [changes], of the slices that objects reach or of all --> changed segments and
 //   slices
 //                     --> the passes of Epipolar.cpp, up to [interpolate], over those
-//   for each light:   changed segments, scene depth, last depth --> [mask] --> stencil
-//   for each light:   epipolar inscatter --> [unwarp], fix-up, where the stencil is set --> inscatter, transmittance
+//   for each light:   changed segments, scene depth, last depth --> [tiles] --> changed tiles
+//   for each light:   epipolar inscatter --> [unwarp], fix-up, over those tiles --> inscatter, transmittance
 //   inscatter, transmittance --> [composite] --> colour
 //
 // A frame in which nothing has changed has the last step only; one in which everything has is drawn in full, and after
 // some of those nothing is kept for a while.
 namespace tyndall {
+
+namespace {
+
+const gl::Variant kKeepDepth = {"passes/keepDepth.frag", {{"DEPTH_MULTISAMPLED", 0}}};
+
+} // namespace
 
 Status Effect::State::renderReusing(const Frame& frame, const FrameTextures& textures, bool& rests) {
   ViewHistory& view = histories.of(frame.reuse.view);
@@ -64,7 +70,7 @@ Status Effect::State::redraw(const Frame& frame, const FrameTextures& textures, 
     if (Status s = drawLights(frame, textures, destination); !s) return s;
   }
   if (picture != Redraw::All || frame.settings.technique != Technique::Epipolar || frame.depth.multisampled) return {};
-  return keepDepth(frame, view, false);
+  return keepDepth(frame, view, 0);
 }
 
 Status Effect::State::redrawSlices(const Frame& frame, const FrameTextures& textures,
@@ -91,58 +97,65 @@ Status Effect::State::redrawSlices(const Frame& frame, const FrameTextures& text
   if (!prepared) return prepared;
   for (const DrawnLight& light : lights) // one may have turned out not to be kept
     if (view.light(light.index).redraw == Redraw::All) picture = Redraw::All;
-  std::uint64_t masked = 0;
+  gl::Uint tiles = 0;
   if (picture == Redraw::Part)
-    if (Status s = maskChanges(frame, lights, view, destination, masked); !s) return s;
+    if (Status s = findTiles(frame, lights, view, tiles); !s) return s;
   return forEachLight([&](SliceInputs& in) {
-    in.masked = picture == Redraw::Part;
-    in.maskedPixels = masked;
+    in.tiles = tiles;
     return epipolar::finish(passContext(), targets, recorder, scratch, in);
   });
 }
 
-Status Effect::State::maskChanges(const Frame& frame, const std::vector<DrawnLight>& lights, ViewHistory& view,
-                                  const Destination& destination, std::uint64_t& masked) {
+Status Effect::State::findTiles(const Frame& frame, const std::vector<DrawnLight>& lights, ViewHistory& view,
+                                gl::Uint& tiles) {
   using namespace passes;
   const bool comparesDepth = view.light(lights.front().index).comparesEnds;
-  if (Status s = attach(frame, destination.inscatter, 0, true); !s) return s;
-  const gl::Enum none = gl::NONE;
-  gl.DrawBuffers(1, &none);
-  const gl::Int zero = 0;
-  gl.StencilMask(0xFF);
-  gl.ClearBufferiv(gl::STENCIL, 0, &zero);
+  const int width = (frame.width + changes::kTile - 1) / changes::kTile;
+  const int height = (frame.height + changes::kTile - 1) / changes::kTile;
+  tiles = targets.get(Target::ChangedTiles, width, height);
+  if (!tiles) return {StatusCode::OutOfMemory, "GL could not allocate the textures of Frame::reuse"};
+  if (Status s = attach(frame, tiles, 0); !s) return s;
+  gl.Viewport(0, 0, width, height);
+  constexpr std::array<gl::Float, 4> kNone = {0, 0, 0, 0};
+  gl.ClearBufferfv(gl::COLOR, 0, kNone.data());
   bindTexture(passContext(), gl::Unit::SceneDepth, gl::TEXTURE_2D, frame.depth.texture);
   if (comparesDepth)
     bindTexture(passContext(), gl::Unit::LastDepth, gl::TEXTURE_2D,
                 view.targets.get(Target::LastDepth, frame.width, frame.height));
-  setBlend(passContext(), Blend::Replace);
   for (const DrawnLight& light : lights) {
     const LightHistory& history = view.light(light.index);
-    const bool compares = comparesDepth && &light == &lights.front();
-    if (history.redraw == Redraw::Nothing && !compares) continue;
+    if (history.redraw == Redraw::Nothing) continue;
     upload(2, &history.geometry.block, sizeof history.geometry.block);
-    bindTexture(passContext(), gl::Unit::ChangedSlices, gl::TEXTURE_2D, history.changedSlices);
-    bindTexture(passContext(), gl::Unit::ChangedSegments, gl::TEXTURE_2D, history.changedSegments);
-    bindTexture(passContext(), gl::Unit::SampleEnds, gl::TEXTURE_2D, history.sampleEnds);
-    bindTexture(passContext(), gl::Unit::SliceTable, gl::TEXTURE_2D, history.geometry.table);
-    bool ok = true;
-    masked += recorder.countWritten([&] {
-      ok = recorder.run(light.name + " mask", [&] { return changes::mask(passContext(), light.variant, compares); });
-    });
-    if (!ok) return shaderError();
+    const auto bind = [&](gl::Unit unit, gl::Uint texture) {
+      bindTexture(passContext(), unit, gl::TEXTURE_2D, texture);
+    };
+    bind(gl::Unit::ChangedSlices, history.changedSlices);
+    bind(gl::Unit::ChangedSegments, history.changedSegments);
+    bind(gl::Unit::SampleEnds, history.sampleEnds);
+    bind(gl::Unit::SliceTable, history.geometry.table);
+    const bool compares = comparesDepth && &light == &lights.front();
+    if (!recorder.run(light.name + " tiles",
+                      [&] { return changes::findTiles(passContext(), light.variant, compares); }))
+      return shaderError();
   }
-  return comparesDepth ? keepDepth(frame, view, true) : Status{};
+  return comparesDepth ? keepDepth(frame, view, tiles) : Status{};
 }
 
-Status Effect::State::keepDepth(const Frame& frame, ViewHistory& view, bool underMask) {
+Status Effect::State::keepDepth(const Frame& frame, ViewHistory& view, gl::Uint tiles) {
   const gl::Uint last = view.targets.get(Target::LastDepth, frame.width, frame.height);
   if (!last) return {StatusCode::OutOfMemory, "GL could not allocate the textures of Frame::reuse"};
-  if (Status s = attach(frame, last, 0, underMask); !s) return s;
+  if (Status s = attach(frame, last, 0); !s) return s;
   passes::bindTexture(passContext(), gl::Unit::SceneDepth, gl::TEXTURE_2D, frame.depth.texture);
   setBlend(passContext(), passes::Blend::Replace);
-  const bool ok = recorder.run("keep depth", [&] { return passes::changes::keepDepth(passContext(), underMask); });
-  view.keepsDepth = ok;
-  return ok ? Status{} : shaderError();
+  view.keepsDepth = recorder.run("keep depth", [&] { return drawTiles(frame, kKeepDepth, tiles); });
+  return view.keepsDepth ? Status{} : shaderError();
+}
+
+// A full-screen pass over tiles, or over all without them.
+bool Effect::State::drawTiles(const Frame& frame, const gl::Variant& variant, gl::Uint tiles) {
+  if (!tiles) return passes::drawFullScreen(passContext(), variant.fragment, variant.definitions);
+  passes::bindTexture(passContext(), gl::Unit::ChangedTiles, gl::TEXTURE_2D, tiles);
+  return passes::changes::drawTiles(passContext(), variant, frame.width, frame.height);
 }
 
 Status Effect::State::copyToOutputs(const Frame& frame, const Destination& kept) {

@@ -75,9 +75,9 @@ struct Effect::State {
                 Redraw& picture, const Destination& destination);
   Status redrawSlices(const Frame& frame, const FrameTextures& textures, const std::vector<DrawnLight>& lights,
                       Redraw& picture, const Destination& destination);
-  Status maskChanges(const Frame& frame, const std::vector<DrawnLight>& lights, ViewHistory& view,
-                     const Destination& destination, std::uint64_t& masked);
-  Status keepDepth(const Frame& frame, ViewHistory& view, bool underMask);
+  Status findTiles(const Frame& frame, const std::vector<DrawnLight>& lights, ViewHistory& view, gl::Uint& tiles);
+  Status keepDepth(const Frame& frame, ViewHistory& view, gl::Uint tiles);
+  bool drawTiles(const Frame& frame, const gl::Variant& variant, gl::Uint tiles);
   Status copyToOutputs(const Frame& frame, const Destination& kept);
   // Slices take one depth per pixel: a multisampled frame is rendered by exact.
   static bool usesSlices(const Frame& frame) {

@@ -1,7 +1,6 @@
 // Debug views: what takes the composite's place.
 #include "EffectState.h"
 #include "passes/Changes.h"
-#include "passes/StencilTest.h"
 #include "passes/View.h"
 
 namespace tyndall {
@@ -16,13 +15,14 @@ Status Effect::State::clearView(const Frame& frame, float red) {
   return {};
 }
 
-// What a frame with Frame::reuse drew: its mask is in the stencil.
+// What a frame with Frame::reuse drew: all, or its tiles.
 Status Effect::State::showRedrawn(const Frame& frame, Redraw picture) {
   if (Status s = clearView(frame, picture == Redraw::All ? 1 : 0); !s || picture != Redraw::Part) return s;
-  if (Status s = attach(frame, targets.get(Target::View, frame.width, frame.height), 0, true); !s) return s;
   passes::setBlend(passContext(), passes::Blend::Replace);
-  const passes::StencilTest test(gl, {gl::EQUAL, passes::changes::kMasked, passes::changes::kMasked, gl::KEEP});
-  return passes::drawFullScreen(passContext(), "passes/viewFixup.frag", {}) ? Status{} : shaderError();
+  const gl::Uint tiles =
+      targets.get(Target::ChangedTiles, (frame.width + passes::changes::kTile - 1) / passes::changes::kTile,
+                  (frame.height + passes::changes::kTile - 1) / passes::changes::kTile);
+  return drawTiles(frame, {"passes/viewFixup.frag", {}}, tiles) ? Status{} : shaderError();
 }
 
 Status Effect::State::drawView(const Frame& frame, const FrameTextures& textures, const Destination& destination) {

@@ -47,6 +47,7 @@ enum class Target {
   ChangedSegments,
   ChangedSlices,
   MovedSlices,
+  ChangedTiles,
   LastDepth,
   View,
   ViewExact,

@@ -57,6 +57,13 @@ bool meetsChange(int slice, int samples, int first, int last) {
   vec4 ends = sliceEnds(slice);
   Ray low = cameraRay(samplePosition(ends, samples, float(first))), high = cameraRay(samplePosition(ends, samples, float(last)));
   for (int view = 0; view < march.y; ++view) {
+    int parts = (rowTexels(view, slice) + 255) / 256;
+    bool any = false;
+    for (int part = 0; part < parts; ++part) {
+      vec2 bounds = texelFetch(changedParts, ivec2(part, rowOf(view, slice)), 0).rg;
+      any = any || bounds.x <= bounds.y;
+    }
+    if (!any) continue;
     vec4 row = rowLine(view, slice);
     vec2 along = row.zw / dot(row.zw, row.zw);
     float origin = dot(row.xy, along), reach = -3e38;
@@ -65,7 +72,6 @@ bool meetsChange(int slice, int samples, int first, int last) {
       ViewRay ray = viewRay(view, cameraRay(samplePosition(ends, samples, float(i))));
       reach = max(reach, indexAt(ray, along, origin, max(endAt(slice, i), 0.0)));
     }
-    int parts = (rowTexels(view, slice) + 255) / 256;
     for (int part = 0; part < parts; ++part) {
       vec2 bounds = texelFetch(changedParts, ivec2(part, rowOf(view, slice)), 0).rg;
       float begin = 256.0 * float(part);

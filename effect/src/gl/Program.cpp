@@ -55,6 +55,7 @@ constexpr Sampler kSamplers[] = {
     {"rowHashes", Unit::RowHashes},
     {"lastRowHashes", Unit::LastRowHashes},
     {"changedParts", Unit::ChangedParts},
+    {"changedTiles", Unit::ChangedTiles},
     {"lastDepth", Unit::LastDepth},
     {"image", Unit::ViewImage},
     {"refinedMarks", Unit::ViewImage},

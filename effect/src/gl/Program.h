@@ -56,6 +56,7 @@ enum class Unit : Uint {
   LastRowHashes = RowShares,
   ChangedParts = Marched,
   LastDepth = Marched,
+  ChangedTiles = Marks,
   ViewImage = Marched, ///< debug views run after the passes that read these, or read neither
   ViewExact = Extra,
   ViewMean = EpipolarInscatter,

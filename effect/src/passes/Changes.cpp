@@ -2,7 +2,6 @@
 
 #include "History.h"
 #include "optics/MovedSlices.h"
-#include "passes/StencilTest.h"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +13,7 @@ namespace {
 constexpr const char* kParts = "passes/changedParts.frag";
 constexpr const char* kSegments = "passes/changedSegments.frag";
 constexpr const char* kSlices = "passes/changedSlices.frag";
+constexpr const char* kTiles = "passes/changedTiles.frag";
 constexpr int kPartTexels = 256;
 
 gl::Definitions comparing(gl::Definitions definitions, bool ends, bool rows) {
@@ -27,7 +27,7 @@ gl::Definitions hashed(gl::Definitions definitions) {
   return definitions;
 }
 
-gl::Definitions masking(const exact::Variant& variant, bool comparesDepth) {
+gl::Definitions tiling(const exact::Variant& variant, bool comparesDepth) {
   gl::Definitions definitions = exact::definitionsOf(variant);
   definitions.emplace_back("COMPARES_DEPTH", comparesDepth ? 1 : 0);
   return definitions;
@@ -115,24 +115,24 @@ Status compare(SliceContext& context, const In& in, int frame) {
   return {};
 }
 
-bool mask(const PassContext& context, const exact::Variant& variant, bool comparesDepth) {
-  context.gl.StencilMask(0xFF);
-  // Each pixel once, whichever light changes it: the writes are counted.
-  const StencilTest test(context.gl, {gl::NOTEQUAL, kMasked, kMasked, gl::REPLACE});
-  return drawFullScreen(context, "passes/mask.frag", masking(variant, comparesDepth));
+bool findTiles(const PassContext& context, const exact::Variant& variant, bool comparesDepth) {
+  setBlend(context, Blend::Replace);
+  return drawFullScreen(context, kTiles, tiling(variant, comparesDepth));
 }
 
-bool keepDepth(const PassContext& context, bool underMask) {
-  const gl::Definitions definitions = {{"DEPTH_MULTISAMPLED", 0}};
-  if (!underMask) return drawFullScreen(context, "passes/keepDepth.frag", definitions);
-  const StencilTest test(context.gl, {gl::EQUAL, kMasked, kMasked, gl::KEEP});
-  return drawFullScreen(context, "passes/keepDepth.frag", definitions);
+gl::Variant overTiles(gl::Variant fullScreen) {
+  fullScreen.vertex = "passes/tiles.vert";
+  return fullScreen;
+}
+
+bool drawTiles(const PassContext& context, const gl::Variant& fullScreen, int width, int height) {
+  const int tiles = ((width + kTile - 1) / kTile) * ((height + kTile - 1) / kTile);
+  return drawStrips(context, overTiles(fullScreen), tiles, 1);
 }
 
 std::vector<gl::Variant> variantsOf(const exact::Variant& variant) {
   const gl::Definitions definitions = exact::definitionsOf(variant);
-  std::vector<gl::Variant> all = {{"passes/mask.frag", masking(variant, false)},
-                                  {"passes/mask.frag", masking(variant, true)}};
+  std::vector<gl::Variant> all = {{kTiles, tiling(variant, false)}, {kTiles, tiling(variant, true)}};
   const auto add = [&](const std::vector<gl::Variant>& some) { all.insert(all.end(), some.begin(), some.end()); };
   const bool hasRows = variant.shadowViews > 0, hasHashes = variant.glass || variant.bilinear;
   if (hasRows) add(inRows(kParts, hasHashes ? hashed(definitions) : definitions));

@@ -19,15 +19,18 @@ struct In {
 /// how many segments.
 Status compare(SliceContext& context, const In& in, int frame);
 
-/// Draws the pixels that the bound flags, and the depth, touch. False if the shader does not build.
-bool mask(const PassContext& context, const exact::Variant& variant, bool comparesDepth);
+/// Draws into a target of tiles, kTile x kTile pixels each, those that the bound segments, and the depth, touch. False
+/// if the shader does not build.
+bool findTiles(const PassContext& context, const exact::Variant& variant, bool comparesDepth);
 
-/// Draws the scene depth, all of it or where the mask is set.
-bool keepDepth(const PassContext& context, bool underMask);
+/// Draws a full-screen pass over the bound tiles only. False if the shader does not build.
+bool drawTiles(const PassContext& context, const gl::Variant& fullScreen, int width, int height);
+
+inline constexpr int kTile = 16;
+
+/// The same program over tiles.
+gl::Variant overTiles(gl::Variant fullScreen);
 
 std::vector<gl::Variant> variantsOf(const exact::Variant& variant);
-
-/// What marks a pixel in the stencil: that it is drawn anew, and that unwarp served it.
-inline constexpr int kMasked = 0x80, kServed = 0x01;
 
 } // namespace tyndall::passes::changes

@@ -1,6 +1,7 @@
 #include "passes/SliceContext.h"
 
 #include "History.h"
+#include "passes/Changes.h"
 
 #include <algorithm>
 #include <array>
@@ -85,6 +86,16 @@ void SliceContext::detachMore(gl::Enum kept) const {
 
 Status SliceContext::draw(const std::string& name, const std::string& fragment, const gl::Definitions& with) {
   const bool ok = recorder.run(inputs.name + " " + name, [&] { return drawFullScreen(pass, fragment, with); });
+  return ok ? Status{} : shaderError();
+}
+
+Status SliceContext::drawImage(const std::string& name, const std::string& fragment, const gl::Definitions& with) {
+  if (!inputs.tiles) return draw(name, fragment, with);
+  bind(gl::Unit::ChangedTiles, inputs.tiles);
+  const Frame& frame = *inputs.frame;
+  const bool ok = recorder.run(inputs.name + " " + name, [&] {
+    return changes::drawTiles(pass, {fragment, with}, frame.width, frame.height);
+  });
   return ok ? Status{} : shaderError();
 }
 

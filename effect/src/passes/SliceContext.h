@@ -30,8 +30,7 @@ struct SliceInputs {
   std::function<void(int binding, const void* data, std::size_t size)> upload;
   /// Temporal reuse: what is kept of the light; null: nothing is.
   LightHistory* history = nullptr;
-  bool masked = false;            ///< only pixels that the stencil marks are to be drawn (passes/Changes.h)
-  std::uint64_t maskedPixels = 0; ///< and how many they are
+  gl::Uint tiles = 0; ///< only those squares of pixels are to be drawn (passes/Changes.h); 0: all
 };
 
 /// What a target of slices has along y (glsl/passes/changedStrips).
@@ -79,6 +78,8 @@ struct SliceContext {
 
   /// Draws the full-screen triangle as a pass of the light.
   Status draw(const std::string& name, const std::string& fragment, const gl::Definitions& with);
+  /// The same over the image, of which temporal reuse may want parts only.
+  Status drawImage(const std::string& name, const std::string& fragment, const gl::Definitions& with);
   /// Draws those that have changed, if that is known: slices along x, rows along y, or, where each has a length of its
   /// own, strips (passes/strips.vert).
   Status drawSlices(const std::string& name, const std::string& fragment, const gl::Definitions& with,

@@ -7,17 +7,7 @@ namespace tyndall::passes::unwarp {
 
 namespace {
 
-using changes::kMasked, changes::kServed;
-
-// Of pixels to serve; of those that were not.
-StencilTest::Rule toServe(const SliceContext& context) {
-  if (!context.inputs.masked) return {gl::ALWAYS, kServed, 0xFF, gl::REPLACE};
-  return {gl::EQUAL, kMasked | kServed, kMasked, gl::REPLACE};
-}
-StencilTest::Rule unserved(const SliceContext& context) {
-  if (!context.inputs.masked) return {gl::EQUAL, 0, 0xFF, gl::KEEP};
-  return {gl::EQUAL, kMasked, kMasked | kServed, gl::KEEP};
-}
+constexpr StencilTest::Rule kServing = {gl::ALWAYS, 1, 0xFF, gl::REPLACE}, kUnserved = {gl::EQUAL, 0, 0xFF, gl::KEEP};
 
 gl::Definitions definitionsOf(const exact::Variant& variant, bool spread) {
   gl::Definitions definitions = exact::definitionsOf(variant);
@@ -29,9 +19,9 @@ gl::Definitions definitionsOf(const exact::Variant& variant, bool spread) {
 // hand, and to make them all again would take longer than every texel does.
 Status fixUpUnserved(SliceContext& context, const In& in) {
   rows::bind(context, in.rows);
-  const StencilTest test(context.gl, unserved(context));
-  return context.draw("fix-up", context.draws() > 1 ? "passes/exact.frag" : "passes/pixelTree.frag",
-                      context.definitions);
+  const StencilTest test(context.gl, kUnserved);
+  return context.drawImage("fix-up", context.draws() > 1 ? "passes/exact.frag" : "passes/pixelTree.frag",
+                           context.definitions);
 }
 
 // Those pixels and the many between slices that disagree: along their own line.
@@ -45,7 +35,7 @@ Status fixUpBetweenSlices(SliceContext& context, const In& in) {
     context.bindSceneDepth();
     rows::bind(context, rows);
     if (Status s = context.inputs.attachDestination(true, draw == 0); !s) return s;
-    const StencilTest test(context.gl, unserved(context));
+    const StencilTest test(context.gl, kUnserved);
     setBlend(context.pass, draw == 0 ? context.inputs.blend : Blend::Add);
     if (Status s = context.draw("fix-up", "passes/fixup.frag", context.definitions); !s) return s;
   }
@@ -63,26 +53,36 @@ Status run(SliceContext& context, const In& in) {
   if (in.meanLight) context.bind(gl::Unit::MeanLight, in.meanLight);
   if (Status s = context.inputs.attachDestination(true, true); !s) return s;
   const gl::Int zero = 0;
-  gl.StencilMask(context.inputs.masked ? kServed : 0xFF);
+  gl.StencilMask(0xFF);
   gl.ClearBufferiv(gl::STENCIL, 0, &zero);
   setBlend(context.pass, context.inputs.blend);
   Status status;
   const std::uint64_t served = context.recorder.countWritten([&] {
-    const StencilTest test(gl, toServe(context));
-    status = context.draw("unwarp", "passes/unwarp.frag", definitionsOf(context.inputs.variant, in.meanLight != 0));
+    const StencilTest test(gl, kServing);
+    status =
+        context.drawImage("unwarp", "passes/unwarp.frag", definitionsOf(context.inputs.variant, in.meanLight != 0));
   });
-  gl.StencilMask(0xFF);
-  const auto all = static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height);
-  const std::uint64_t pixels = context.inputs.masked ? context.inputs.maskedPixels : all;
+  if (!status) return status;
+  if (context.inputs.tiles) { // how many pixels they have is not known
+    const std::uint64_t fixed = context.recorder.countWritten([&] { status = fixUpUnserved(context, in); });
+    context.recorder.countFixup(fixed);
+    context.recorder.countMarched(fixed);
+    return status;
+  }
+  const auto pixels = static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height);
   context.recorder.countFixup(pixels - served);
   context.recorder.countMarched(pixels - served);
-  if (status && served == pixels) context.recorder.skip(context.inputs.name + " fix-up", "every pixel was served");
-  if (status && served < pixels) status = in.meanLight ? fixUpBetweenSlices(context, in) : fixUpUnserved(context, in);
-  return status;
+  if (served == pixels) {
+    context.recorder.skip(context.inputs.name + " fix-up", "every pixel was served");
+    return {};
+  }
+  return in.meanLight ? fixUpBetweenSlices(context, in) : fixUpUnserved(context, in);
 }
 
 std::vector<gl::Variant> variantsOf(const exact::Variant& variant) {
   return {{"passes/unwarp.frag", definitionsOf(variant, false)},
+          changes::overTiles({"passes/unwarp.frag", definitionsOf(variant, false)}),
+          changes::overTiles({"passes/pixelTree.frag", exact::definitionsOf(variant)}),
           {"passes/unwarp.frag", definitionsOf(variant, true)},
           {"passes/fixup.frag", exact::definitionsOf(variant)}};
 }

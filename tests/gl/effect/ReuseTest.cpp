@@ -198,7 +198,7 @@ TEST_CASE("the mask holds every pixel that changes, and without the pixels along
         if (frame > 0) {
           CHECK(covers(mask, now, last));
           // Boxes are widened by what a sample may see, and by a slice.
-          tight = tight || !covers(shrunk(mask, 96, 64, changes == Changes::Detect ? 1 : 3), now, last);
+          tight = tight || !covers(shrunk(mask, 96, 64, changes == Changes::Detect ? 17 : 17), now, last);
         }
         last = now;
       }
