@@ -110,8 +110,7 @@ Status Effect::State::findTiles(const Frame& frame, const std::vector<DrawnLight
                                 gl::Uint& tiles) {
   using namespace passes;
   const bool comparesDepth = view.light(lights.front().index).comparesEnds;
-  const int width = (frame.width + changes::kTile - 1) / changes::kTile;
-  const int height = (frame.height + changes::kTile - 1) / changes::kTile;
+  const int width = changes::kTilesAcross, height = changes::tileLines(frame.width, frame.height);
   tiles = targets.get(Target::ChangedTiles, width, height);
   if (!tiles) return {StatusCode::OutOfMemory, "GL could not allocate the textures of Frame::reuse"};
   if (Status s = attach(frame, tiles, 0); !s) return s;
@@ -133,9 +132,11 @@ Status Effect::State::findTiles(const Frame& frame, const std::vector<DrawnLight
     bind(gl::Unit::ChangedSegments, history.changedSegments);
     bind(gl::Unit::SampleEnds, history.sampleEnds);
     bind(gl::Unit::SliceTable, history.geometry.table);
+    const bool some = history.movedSlices != 0;
+    if (some) bind(gl::Unit::MovedSlices, history.movedSlices);
     const bool compares = comparesDepth && &light == &lights.front();
     if (!recorder.run(light.name + " tiles",
-                      [&] { return changes::findTiles(passContext(), light.variant, compares); }))
+                      [&] { return changes::findTiles(passContext(), light.variant, compares, some); }))
       return shaderError();
   }
   return comparesDepth ? keepDepth(frame, view, tiles) : Status{};

@@ -19,9 +19,8 @@ Status Effect::State::clearView(const Frame& frame, float red) {
 Status Effect::State::showRedrawn(const Frame& frame, Redraw picture) {
   if (Status s = clearView(frame, picture == Redraw::All ? 1 : 0); !s || picture != Redraw::Part) return s;
   passes::setBlend(passContext(), passes::Blend::Replace);
-  const gl::Uint tiles =
-      targets.get(Target::ChangedTiles, (frame.width + passes::changes::kTile - 1) / passes::changes::kTile,
-                  (frame.height + passes::changes::kTile - 1) / passes::changes::kTile);
+  const gl::Uint tiles = targets.get(Target::ChangedTiles, passes::changes::kTilesAcross,
+                                     passes::changes::tileLines(frame.width, frame.height));
   return drawTiles(frame, {"passes/viewFixup.frag", {}}, tiles) ? Status{} : shaderError();
 }
 

@@ -104,7 +104,7 @@ void ViewHistory::finish(const Frame& frame, bool drawn) {
 void ViewHistory::judge() {
   if (!mayReuse_) return;
   mayReuse_ = false;
-  const bool busy = picture_ == Redraw::All || (picture_ == Redraw::Part && redrawnShare() > fullShare_);
+  const bool busy = redrawnShare() > fullShare_;
   if (busy && (busy_ || pause_ > 1)) {
     rest_ = pause_;
     pause_ = std::min(2 * pause_, kLongestRest);
@@ -114,7 +114,6 @@ void ViewHistory::judge() {
 }
 
 double ViewHistory::redrawnShare() {
-  if (picture_ == Redraw::All) return 1;
   if (picture_ == Redraw::Nothing) return 0;
   std::uint64_t segments = 0, changed = 0;
   for (const std::size_t index : key_.drawn) {
@@ -127,7 +126,7 @@ double ViewHistory::redrawnShare() {
     segments += static_cast<std::uint64_t>(light.segments);
     changed += static_cast<std::uint64_t>(light.changed);
   }
-  return segments > 0 ? static_cast<double>(changed) / static_cast<double>(segments) : 0;
+  return segments > 0 ? static_cast<double>(changed) / static_cast<double>(segments) : 1;
 }
 
 std::uint64_t ViewHistory::bytes() const {

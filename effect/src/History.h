@@ -46,6 +46,7 @@ struct LightHistory {
   passes::slices::Out geometry;
   passes::rows::Out row;
   gl::Uint sampleEnds = 0, inscatter = 0, changedSlices = 0, changedSegments = 0;
+  gl::Uint movedSlices = 0; ///< 0: all were compared
 
   std::uint64_t bytes() const;
 };

@@ -67,7 +67,7 @@ constexpr Row kRows[] = {
     {"changed segments", kR32, kR32, "slices x samples / 16", "the same: those to be drawn anew"},
     {"changed slices", kRgba32, kRgba32, "slices x 1", "the same: from which segment to which, of eight slices"},
     {"moved slices", kRgba32, kRgba32, "slices x 1", "the same: those to be compared"},
-    {"changed tiles", kR32, kR32, "image / 16", "the same: squares of pixels to be drawn anew"},
+    {"changed tiles", kR32, kR32, "256 x tiles / 256", "the same: squares of pixels to be drawn anew"},
     {"last depth", kR32, kR32, "image", "the same: the last frame's scene depth, where it is compared"},
     {"view", kRgba32, kRgba32, "image", "debug views of slices: what is counted or shown, until all lights are done"},
     {"view exact", kRgba32, kRgba32, "image", "debug view of the difference: exact's inscatter"},

@@ -1,7 +1,8 @@
 // Changed tiles: of 16 x 16 pixels, those of which a pixel may not be what it was in the last frame: its own depth has changed
 // (COMPARES_DEPTH 1), or a sample that serves it; or a pixel ends behind all those samples, so that it is marched by itself, and a row has
 // changed. Discards the others. Reads the slice table, changedSegments, changedSlices, sampleEnds, the scene depth and the last frame's.
-// Writes tiles: image size / 16, R32F: 1.
+// In a light of which only some slices were compared (SOME 1: movedSlices) the depth of other tiles has not changed.
+// Writes tiles, one after the other in lines of 256, R32F: 1.
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/depth.glsl"
@@ -14,6 +15,9 @@ uniform sampler2D changedSlices;
 uniform sampler2D sampleEnds;
 #if COMPARES_DEPTH
 uniform sampler2D lastDepth;
+#endif
+#if SOME
+uniform sampler2D movedSlices;
 #endif
 layout(location = 0) out vec4 outTile;
 
@@ -32,37 +36,54 @@ ivec2 slicesOf(vec2 low, vec2 high) {
   return ivec2(first, min(int(floor(most)) + 2 - first, grid.x));
 }
 
-// True if the samples of a slice that serve pixels of a tile have changed, or pixels up to `end` may be served by none.
-bool isChanged(int slice, vec2 low, vec2 high, float end) {
+int wrapped(int slice) { return sliceMap.w != 0.0 ? (slice + grid.x) % grid.x : clamp(slice, 0, grid.x - 1); }
+
+float farthestEnd(ivec2 first, ivec2 last) {
+  float end = 0.0;
+  for (int y = first.y; y <= last.y; ++y)
+    for (int x = first.x; x <= last.x; ++x) end = max(end, min(rayEnd(vec2(x, y) + 0.5, depthAt(ivec2(x, y), 0)), extinction.w));
+  return end;
+}
+
+// What a slice means to the pixels of a tile: x: samples that serve them have changed; y: pixels that end behind the result are marched by
+// themselves, and its row has changed; else infinite.
+vec2 changeOf(int slice, vec2 low, vec2 high) {
   vec4 line = texelFetch(sliceTable, ivec2(slice, 1), 0);
   vec4 at = line.z + vec4(dot(low, line.xy), dot(vec2(high.x, low.y), line.xy), dot(vec2(low.x, high.y), line.xy), dot(high, line.xy));
   float least = min(min(at.x, at.y), min(at.z, at.w)), most = max(max(at.x, at.y), max(at.z, at.w));
   int first = int(clamp(least, 0.0, line.w)), last = int(clamp(most + 1.0, 0.0, line.w));
-  for (int i = first >> 4; i <= last >> 4; ++i)
-    if (texelFetch(changedSegments, ivec2(slice, i), 0).r > 0.0) return true;
-  if (texelFetch(changedSlices, ivec2(slice, 0), 0).a == 0.0) return false;
-  if (least < 0.0 || most > line.w) return true; // beside the slice's samples
-  float farther = 0.0;
+  float changed = 0.0, farther = 0.0;
+  for (int i = first >> 4; i <= last >> 4; ++i) changed = max(changed, texelFetch(changedSegments, ivec2(slice, i), 0).r);
+  if (texelFetch(changedSlices, ivec2(slice, 0), 0).a == 0.0) return vec2(changed, 3e38);
+  if (least < 0.0 || most > line.w) return vec2(1.0, 0.0); // beside the slice's samples
   for (int i = first; i <= last; ++i) farther = max(farther, texelFetch(sampleEnds, ivec2(slice, i), 0).r);
-  return end > 1.0001 * farther;
+  return vec2(changed, 1.0001 * farther);
 }
 
 void main() {
-  ivec2 first = kTile * ivec2(gl_FragCoord.xy), last = min(first + kTile, counts.zw) - 1;
-  bool changed = false;
-  float end = 0.0;
-  for (int y = first.y; y <= last.y && !changed; ++y)
-    for (int x = first.x; x <= last.x; ++x) {
-      float depth = depthAt(ivec2(x, y), 0);
-      end = max(end, min(rayEnd(vec2(x, y) + 0.5, depth), extinction.w));
-#if COMPARES_DEPTH
-      changed = changed || floatBitsToInt(depth) != floatBitsToInt(texelFetch(lastDepth, ivec2(x, y), 0).r);
-#endif
-    }
+  int across = (counts.z + kTile - 1) / kTile, tile = int(gl_FragCoord.x) + 256 * int(gl_FragCoord.y);
+  ivec2 first = kTile * ivec2(tile % across, tile / across), last = min(first + kTile, counts.zw) - 1;
+  if (first.y >= counts.w) discard;
   vec2 low = vec2(first) + 0.5, high = vec2(last) + 0.5;
   ivec2 slices = slicesOf(low, high);
-  for (int i = 0; i < slices.y && !changed; ++i)
-    changed = isChanged(sliceMap.w != 0.0 ? (slices.x + i + grid.x) % grid.x : clamp(slices.x + i, 0, grid.x - 1), low, high, end);
+  bool changed = false, compared = false;
+  float alone = 3e38;
+  for (int i = 0; i < slices.y && !changed; ++i) {
+    int slice = wrapped(slices.x + i);
+#if SOME
+    if (texelFetch(movedSlices, ivec2(slice, 0), 0).g == 0.0) continue;
+#endif
+    vec2 change = changeOf(slice, low, high);
+    compared = true;
+    changed = change.x > 0.0;
+    alone = min(alone, change.y);
+  }
+#if COMPARES_DEPTH
+  for (int y = first.y; y <= last.y && compared && !changed; ++y)
+    for (int x = first.x; x <= last.x; ++x)
+      changed = changed || floatBitsToInt(depthAt(ivec2(x, y), 0)) != floatBitsToInt(texelFetch(lastDepth, ivec2(x, y), 0).r);
+#endif
+  if (!changed && alone < 3e38) changed = farthestEnd(first, last) > alone;
   if (!changed) discard;
   outTile = vec4(1.0);
 }

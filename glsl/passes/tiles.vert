@@ -5,9 +5,9 @@ uniform sampler2D changedTiles;
 
 void main() {
   const int kTile = 16;
-  int across = textureSize(changedTiles, 0).x;
+  int across = (counts.z + kTile - 1) / kTile;
   ivec2 tile = ivec2(gl_InstanceID % across, gl_InstanceID / across);
-  bool changed = texelFetch(changedTiles, tile, 0).r > 0.0;
+  bool changed = texelFetch(changedTiles, ivec2(gl_InstanceID % 256, gl_InstanceID / 256), 0).r > 0.0;
   bool right = gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4;
   bool top = gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5;
   vec2 corner = vec2(kTile * (tile + ivec2(right ? 1 : 0, top ? 1 : 0))) / vec2(counts.zw);

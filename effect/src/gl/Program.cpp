@@ -55,6 +55,7 @@ constexpr Sampler kSamplers[] = {
     {"rowHashes", Unit::RowHashes},
     {"lastRowHashes", Unit::LastRowHashes},
     {"changedParts", Unit::ChangedParts},
+    {"movedSlices", Unit::MovedSlices},
     {"changedTiles", Unit::ChangedTiles},
     {"lastDepth", Unit::LastDepth},
     {"image", Unit::ViewImage},

@@ -27,9 +27,10 @@ gl::Definitions hashed(gl::Definitions definitions) {
   return definitions;
 }
 
-gl::Definitions tiling(const exact::Variant& variant, bool comparesDepth) {
+gl::Definitions tiling(const exact::Variant& variant, bool comparesDepth, bool some) {
   gl::Definitions definitions = exact::definitionsOf(variant);
   definitions.emplace_back("COMPARES_DEPTH", comparesDepth ? 1 : 0);
+  definitions.emplace_back("SOME", some ? 1 : 0);
   return definitions;
 }
 
@@ -78,7 +79,7 @@ Status findMoved(SliceContext& context, int frame) {
   const auto segments = static_cast<float>(context.slices.samples / 16);
   std::transform(moved.begin(), moved.end(), texels.begin(),
                  [&](bool m) { return m ? glm::vec4(0, segments, 1, 1) : glm::vec4(0); });
-  return slices::uploadTable(context.pass, context.targets, Target::MovedSlices, context.slices.count, 1, texels,
+  return slices::uploadTable(context.pass, in.history->kept, Target::MovedSlices, context.slices.count, 1, texels,
                              context.changedSlices);
 }
 
@@ -115,9 +116,11 @@ Status compare(SliceContext& context, const In& in, int frame) {
   return {};
 }
 
-bool findTiles(const PassContext& context, const exact::Variant& variant, bool comparesDepth) {
+int tilesOf(int width, int height) { return ((width + kTile - 1) / kTile) * ((height + kTile - 1) / kTile); }
+
+bool findTiles(const PassContext& context, const exact::Variant& variant, bool comparesDepth, bool some) {
   setBlend(context, Blend::Replace);
-  return drawFullScreen(context, kTiles, tiling(variant, comparesDepth));
+  return drawFullScreen(context, kTiles, tiling(variant, comparesDepth, some));
 }
 
 gl::Variant overTiles(gl::Variant fullScreen) {
@@ -126,13 +129,15 @@ gl::Variant overTiles(gl::Variant fullScreen) {
 }
 
 bool drawTiles(const PassContext& context, const gl::Variant& fullScreen, int width, int height) {
-  const int tiles = ((width + kTile - 1) / kTile) * ((height + kTile - 1) / kTile);
-  return drawStrips(context, overTiles(fullScreen), tiles, 1);
+  return drawStrips(context, overTiles(fullScreen), tilesOf(width, height), 1);
 }
 
 std::vector<gl::Variant> variantsOf(const exact::Variant& variant) {
   const gl::Definitions definitions = exact::definitionsOf(variant);
-  std::vector<gl::Variant> all = {{kTiles, tiling(variant, false)}, {kTiles, tiling(variant, true)}};
+  std::vector<gl::Variant> all;
+  for (const bool depth : {false, true})
+    for (const bool some : {false, true})
+      all.push_back({kTiles, tiling(variant, depth, some)});
   const auto add = [&](const std::vector<gl::Variant>& some) { all.insert(all.end(), some.begin(), some.end()); };
   const bool hasRows = variant.shadowViews > 0, hasHashes = variant.glass || variant.bilinear;
   if (hasRows) add(inRows(kParts, hasHashes ? hashed(definitions) : definitions));

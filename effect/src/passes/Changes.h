@@ -19,14 +19,17 @@ struct In {
 /// how many segments.
 Status compare(SliceContext& context, const In& in, int frame);
 
-/// Draws into a target of tiles, kTile x kTile pixels each, those that the bound segments, and the depth, touch. False
-/// if the shader does not build.
-bool findTiles(const PassContext& context, const exact::Variant& variant, bool comparesDepth);
+/// An image in tiles of kTile x kTile pixels, whose flags stand one after the other in lines of kTilesAcross.
+inline constexpr int kTile = 16, kTilesAcross = 256;
+int tilesOf(int width, int height);
+inline int tileLines(int width, int height) { return (tilesOf(width, height) + kTilesAcross - 1) / kTilesAcross; }
+
+/// Draws flags of the tiles that the bound segments, and the depth, touch; of a light of which only some slices were
+/// compared, also bound. False if the shader does not build.
+bool findTiles(const PassContext& context, const exact::Variant& variant, bool comparesDepth, bool some);
 
 /// Draws a full-screen pass over the bound tiles only. False if the shader does not build.
 bool drawTiles(const PassContext& context, const gl::Variant& fullScreen, int width, int height);
-
-inline constexpr int kTile = 16;
 
 /// The same program over tiles.
 gl::Variant overTiles(gl::Variant fullScreen);

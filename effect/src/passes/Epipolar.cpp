@@ -108,6 +108,7 @@ Status makeAndCompare(SliceContext& context, Interpolated& made, int frame) {
   if (some)
     if (Status s = changes::findMoved(context, frame); !s) return s;
   const gl::Uint moved = context.changedSlices;
+  history.movedSlices = moved;
   const bool ends = history.comparesEnds, rows = history.comparesRows;
   changes::In in{history.sampleEnds, 0, history.row, {}};
   const auto changeSides = [&] {

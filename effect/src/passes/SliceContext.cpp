@@ -151,6 +151,7 @@ Targets& SliceContext::holderOf(Target which) const {
   case Target::EpipolarInscatter:
   case Target::ChangedSegments:
   case Target::ChangedSlices:
+  case Target::MovedSlices:
     return history->kept;
   default:
     return targets;

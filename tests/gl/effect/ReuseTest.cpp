@@ -1,90 +1,11 @@
-// Temporal reuse (Frame::reuse): whatever moves, a reused frame is the frame in full, and work is saved.
-#include "ShaftRig.h"
+// Temporal reuse (Frame::reuse): whatever moves, a reused frame is the frame in full.
+#include "ReuseRig.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
-#include <cmath>
 #include <gl/ReadBack.h>
-#include <glm/gtc/matrix_transform.hpp>
 
 using namespace tyndall;
-
-namespace {
-
-std::uint64_t newView() { // the effect is the tests' own: no test meets another's history
-  static std::uint64_t count = 100;
-  return ++count;
-}
-
-Light lamp(LightKind kind, const Vec3& position, const Vec3& direction) {
-  Light light = tests::shaftLight(kind);
-  light.position = position;
-  light.direction = direction;
-  return light;
-}
-
-Light sun() { return tests::shaftLight(LightKind::Directional); }
-Light spot() { return lamp(LightKind::Spot, {-0.6, 9.4, -7}, {0.1, -1, -0.3}); }
-Light point() { return lamp(LightKind::Point, {-0.6, 8.5, -3.5}, {0, -1, 0}); }
-
-// A small box that tumbles across the scene.
-glm::dmat4 tumbling(int frame) {
-  const double t = 0.21 * frame;
-  const glm::dvec3 place(1.5 * std::sin(t) + 0.4, 1.4 + 0.5 * std::cos(1.7 * t), -4.5 - std::cos(t));
-  const glm::dmat4 moved = glm::translate(glm::dmat4(1), place);
-  return glm::scale(glm::rotate(moved, 1.3 * t, glm::normalize(glm::dvec3(1, 2, 3))), glm::dvec3(0.3, 0.12, 0.2));
-}
-
-MovingObject between(const glm::dmat4& last, const glm::dmat4& now) {
-  return {tests::toMat4(now), tests::toMat4(last)};
-}
-
-struct Picture {
-  reference::ImageAnswer answer;
-  double share = 0;
-};
-
-// The frame with what it reuses.
-Picture reused(tests::ShaftRig& rig) {
-  Picture picture;
-  picture.answer = rig.scene.render();
-  picture.share = tests::testEffect().statistics().redrawnShare;
-  return picture;
-}
-
-// The same frame in full; leaves the history alone.
-reference::ImageAnswer full(tests::ShaftRig& rig) {
-  const Reuse reuse = rig.scene.frame.reuse;
-  const std::vector<MovingObject> objects = rig.scene.frame.objects;
-  rig.scene.frame.reuse = {};
-  rig.scene.frame.objects.clear();
-  reference::ImageAnswer answer = rig.scene.render();
-  rig.scene.frame.reuse = reuse;
-  rig.scene.frame.objects = objects;
-  return answer;
-}
-
-void checkSame(const Picture& picture, const reference::ImageAnswer& expected) {
-  CHECK(tests::difference(picture.answer.inscatter, expected.inscatter) <= 1e-5);
-  CHECK(tests::difference(picture.answer.transmittance, expected.transmittance) <= 1e-5);
-}
-
-// What a box does in a frame after the first: objects, depth and maps.
-void moveTo(tests::ShaftRig& rig, int frame) {
-  Frame& f = rig.scene.frame;
-  rig.setMoving({tumbling(frame)});
-  ++f.reuse.frame;
-  f.objects.clear();
-  if (f.reuse.changes == Changes::Objects && frame > 0) f.objects = {between(tumbling(frame - 1), tumbling(frame))};
-}
-
-void begin(tests::ShaftRig& rig, Changes changes) {
-  rig.scene.frame.settings.technique = Technique::Epipolar;
-  rig.scene.frame.reuse.changes = changes;
-  rig.scene.frame.reuse.view = newView();
-}
-
-} // namespace
+using namespace tests::reuse;
 
 TEST_CASE("reused frames are the frames in full, by every light, filter and way to tell what moved") {
   struct Case {
@@ -174,7 +95,7 @@ bool covers(const std::vector<bool>& mask, const reference::Image& a, const refe
 
 } // namespace
 
-TEST_CASE("the mask holds every pixel that changes, and without the pixels along its border it does not") {
+TEST_CASE("the mask holds every pixel that changes, and without a tile along its border it does not") {
   for (const Changes changes : {Changes::Detect, Changes::Objects})
     for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear}) {
       CAPTURE(static_cast<int>(changes), static_cast<int>(filter));
@@ -197,8 +118,8 @@ TEST_CASE("the mask holds every pixel that changes, and without the pixels along
         if (frame == 0) CHECK(std::count(mask.begin(), mask.end(), true) == 96 * 64);
         if (frame > 0) {
           CHECK(covers(mask, now, last));
-          // Boxes are widened by what a sample may see, and by a slice.
-          tight = tight || !covers(shrunk(mask, 96, 64, changes == Changes::Detect ? 17 : 17), now, last);
+          // It is made of tiles of 16 pixels.
+          tight = tight || !covers(shrunk(mask, 96, 64, 17), now, last);
         }
         last = now;
       }
