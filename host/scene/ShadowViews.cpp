@@ -175,6 +175,13 @@ std::vector<Slice> splitView(const Frustum& frustum, const WorldGeometry& geomet
   return slices;
 }
 
+/// The next power of the eighth root of 2, below (up 0) or above (up 1).
+double inSteps(double distance, int up) {
+  constexpr double kSteps = 8; // of an octave
+  if (!(distance > 0)) return distance;
+  return std::exp2((std::floor(kSteps * std::log2(distance)) + up) / kSteps);
+}
+
 /// A point beyond the far plane falls to the next cascade, so each but the last reaches as deep as its slice.
 double farthestOf(const CasterShadow& shadow, const Frustum& frustum, const Slice& slice) {
   double farthest = shadow.farthest;
@@ -219,8 +226,9 @@ void fitPyramids(tyndall::Light& light, const WorldGeometry& geometry, const std
   range.farthest = std::min(range.farthest, light.range);
   if (!(range.nearest <= range.farthest) || range.farthest <= 0) return;
 
-  const double farPlane = range.farthest * (1 + kMargin);
-  const double nearPlane = std::max(range.nearest * (1 - kMargin), kLeastNear * farPlane);
+  // In steps, so that what moves does not move them every frame: a new matrix makes all of the light anew.
+  const double farPlane = inSteps(range.farthest * (1 + kMargin), 1);
+  const double nearPlane = std::max(inSteps(range.nearest * (1 - kMargin), 0), kLeastNear * farPlane);
   const glm::dmat4 clipFromView =
       perspective(tanHalfAngle, tanHalfAngle, nearPlane, farPlane, {options.reversedDepth, options.clipDepth});
   for (const glm::dmat4& viewFromWorld : viewsFromWorld)

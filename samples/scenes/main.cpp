@@ -1,4 +1,5 @@
-// tyndall-make-scenes OUTDIR [NAME...]: writes the sample scenes as OUTDIR/NAME.glb.
+// tyndall-make-scenes OUTDIR [NAME...] [--turntable MODEL.glb]: writes the sample scenes as OUTDIR/NAME.glb, or a
+// model's own.
 #include "GlbWriter.h"
 #include "MeshBuilder.h"
 #include "Scene.h"
@@ -26,34 +27,43 @@ const std::map<std::string, std::function<scenes::Scene()>>& generators() {
   return kGenerators;
 }
 
+void write(scenes::Scene scene, const std::filesystem::path& folder, const std::string& name) {
+  scene.name = name;
+  scenes::writeGlb(scene, (folder / (name + ".glb")).string());
+  std::printf("%s.glb: %zu triangles\n", name.c_str(), scenes::triangleCount(scene));
+}
+
 void run(const std::string& folder, std::vector<std::string> names) {
   if (names.empty())
     for (const auto& [name, make] : generators())
       names.push_back(name);
   std::filesystem::create_directories(folder);
-  for (const std::string& name : names) {
-    scenes::Scene scene = generators().at(name)();
-    scene.name = name;
-    scenes::writeGlb(scene, (std::filesystem::path(folder) / (name + ".glb")).string());
-    std::printf("%s.glb: %zu triangles\n", name.c_str(), scenes::triangleCount(scene));
-  }
+  for (const std::string& name : names)
+    write(generators().at(name)(), folder, name);
 }
 
 int parseAndRun(int argc, char** argv) {
   CLI::App app{"Writes Tyndall's sample scenes"};
-  std::string folder;
+  std::string folder, model;
   std::vector<std::string> names;
   std::vector<std::string> known;
   for (const auto& [name, make] : generators())
     known.push_back(name);
   app.add_option("OUTDIR", folder, "folder of the .glb files")->required();
+  app.add_option("--turntable", model,
+                 "a glTF file: writes its model turning in a box with a lamp, as OUTDIR/turntable-NAME.glb")
+      ->check(CLI::ExistingFile);
   app.add_option("NAME", names, "scenes to write; all if none is named")->check(CLI::IsMember(known));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  run(folder, names);
+  if (!model.empty()) {
+    std::filesystem::create_directories(folder);
+    write(scenes::makeTurntable(model), folder, "turntable-" + std::filesystem::path(model).stem().string());
+  }
+  if (model.empty() || !names.empty()) run(folder, names);
   return 0;
 }
 

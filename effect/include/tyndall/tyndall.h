@@ -251,7 +251,7 @@ struct Reuse {
   std::uint64_t frame = 0;
   /// Share of the slices' segments over which, where that goes on, frames are drawn in full and nothing is kept of
   /// them, up to 16 at a time; 0 to 1.
-  float fullShare = 0.6F;
+  float fullShare = 0.35F;
   /// Redraw every slice once in so many frames, a part of them in each; 0: never; at most 65536.
   int refreshFrames = 0;
 };

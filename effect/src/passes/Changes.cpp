@@ -110,7 +110,8 @@ Status compare(SliceContext& context, const In& in, int frame) {
   if (!drawn) return drawn;
   context.bind(gl::Unit::ChangedSegments, segments);
   if (Status s = context.target(Target::ChangedSlices, count, 1, slices); !s) return s;
-  if (Status s = context.draw("changed slices", kSlices, definitions); !s) return s;
+  clear(context, 0);
+  if (Status s = context.drawSlices("changed slices", kSlices, definitions, Along::Anything); !s) return s;
   context.changedSegments = segments;
   context.changedSlices = slices;
   return {};
@@ -145,7 +146,7 @@ std::vector<gl::Variant> variantsOf(const exact::Variant& variant) {
     for (const bool rows : {false, true}) {
       if (rows && !hasRows) continue;
       add(inSlices(kSegments, comparing(definitions, ends, rows)));
-      all.push_back({kSlices, comparing(definitions, ends, rows)});
+      add(inSlices(kSlices, comparing(definitions, ends, rows), Along::Anything));
     }
   for (const Along along : {Along::Samples, Along::Rows})
     all.push_back(inSlices("passes/copyTexels.frag", {}, along)[1]);
