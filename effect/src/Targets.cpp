@@ -64,6 +64,7 @@ constexpr Row kRows[] = {
      "temporal reuse: all that decides along a row; filtered or glass"},
     {"changed parts", kRg32, kRg32, "texels / 256 x rows",
      "the same: depths between which a row differs from the last frame's"},
+    {"changed ends", kR32, kR32, "slices x samples / 16", "the same: segments with other ends than in the last frame"},
     {"changed segments", kR32, kR32, "slices x samples / 16", "the same: those to be drawn anew"},
     {"changed slices", kRgba32, kRgba32, "slices x 1", "the same: from which segment to which, of eight slices"},
     {"moved slices", kRgba32, kRgba32, "slices x 1", "the same: those to be compared"},

@@ -44,6 +44,7 @@ enum class Target {
   TintSumsBlue,
   RowHashes,
   ChangedParts,
+  ChangedEnds,
   ChangedSegments,
   ChangedSlices,
   MovedSlices,

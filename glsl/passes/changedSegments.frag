@@ -1,7 +1,7 @@
 // Changed segments: those of which a sample may not be what it was in the last frame. Its inscatter follows from the ends and
 // the light of the samples from the begin of its chunk of 64, whose extra samples are packed together, and of the segment
 // before that, to the second segment behind it. The others are discarded, so that these can be counted.
-// Reads the slice table, sampleEnds of both frames (ENDS 1), changedParts (ROWS 1). Writes slices x segments: 1.
+// Reads the slice table, sampleEnds of both frames and changedEnds (ENDS 1), changedParts (ROWS 1). Writes slices x segments: 1.
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/slices.glsl"
@@ -10,6 +10,7 @@
 uniform sampler2D sampleEnds;
 #if ENDS
 uniform sampler2D lastSampleEnds;
+uniform sampler2D changedEnds;
 #endif
 #if ROWS
 uniform sampler2D changedParts;
@@ -94,8 +95,8 @@ void main() {
   int chunk = 64 * (segment >> 2), last = 16 * segment + 48;
   bool changed = slice >= refresh.x && slice < refresh.y;
 #if ENDS
-  for (int i = max(chunk - 18, 0); i < min(last + 3, samples) && !changed; ++i)
-    changed = floatBitsToInt(texelFetch(sampleEnds, ivec2(slice, i), 0).r) != floatBitsToInt(texelFetch(lastSampleEnds, ivec2(slice, i), 0).r);
+  for (int i = max(chunk - 18, 0) >> 4; i <= min(last + 3, grid.y - 1) >> 4; ++i)
+    changed = changed || texelFetch(changedEnds, ivec2(slice, i), 0).r > 0.0;
 #endif
 #if ROWS
   if (!changed && 16 * segment < samples) changed = meetsChange(slice, samples, max(chunk - 16, 0), min(last, samples - 1));

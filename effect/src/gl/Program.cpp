@@ -56,6 +56,7 @@ constexpr Sampler kSamplers[] = {
     {"lastRowHashes", Unit::LastRowHashes},
     {"changedParts", Unit::ChangedParts},
     {"movedSlices", Unit::MovedSlices},
+    {"changedEnds", Unit::ChangedEnds},
     {"changedTiles", Unit::ChangedTiles},
     {"lastDepth", Unit::LastDepth},
     {"image", Unit::ViewImage},

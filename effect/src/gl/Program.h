@@ -57,6 +57,7 @@ enum class Unit : Uint {
   ChangedParts = Marched,
   LastDepth = Marched,
   ChangedTiles = Marks,
+  ChangedEnds = Extra,
   MovedSlices = Extra,
   ViewImage = Marched, ///< debug views run after the passes that read these, or read neither
   ViewExact = Extra,

@@ -10,6 +10,7 @@ namespace tyndall::passes::changes {
 
 namespace {
 
+constexpr const char* kEnds = "passes/changedEnds.frag";
 constexpr const char* kParts = "passes/changedParts.frag";
 constexpr const char* kSegments = "passes/changedSegments.frag";
 constexpr const char* kSlices = "passes/changedSlices.frag";
@@ -95,9 +96,16 @@ Status compare(SliceContext& context, const In& in, int frame) {
   if (rows)
     if (Status s = compareRows(context, in, parts); !s) return s;
   context.bind(gl::Unit::SampleEnds, in.sampleEnds);
-  if (ends) context.bind(gl::Unit::LastSampleEnds, in.lastSampleEnds);
-  if (rows) context.bind(gl::Unit::ChangedParts, parts);
   const int count = context.slices.count, along = context.slices.samples / 16;
+  if (ends) {
+    gl::Uint changedEnds = 0;
+    context.bind(gl::Unit::LastSampleEnds, in.lastSampleEnds);
+    if (Status s = context.target(Target::ChangedEnds, count, along, changedEnds); !s) return s;
+    clear(context, 0);
+    if (Status s = context.drawSlices("changed ends", kEnds, {}); !s) return s;
+    context.bind(gl::Unit::ChangedEnds, changedEnds);
+  }
+  if (rows) context.bind(gl::Unit::ChangedParts, parts);
   if (Status s = context.target(Target::ChangedSegments, count, along, segments); !s) return s;
   clear(context, 0);
   history.segments = count * along;
@@ -148,6 +156,7 @@ std::vector<gl::Variant> variantsOf(const exact::Variant& variant) {
       add(inSlices(kSegments, comparing(definitions, ends, rows)));
       add(inSlices(kSlices, comparing(definitions, ends, rows), Along::Anything));
     }
+  add(inSlices(kEnds, {}));
   for (const Along along : {Along::Samples, Along::Rows})
     all.push_back(inSlices("passes/copyTexels.frag", {}, along)[1]);
   return all;
