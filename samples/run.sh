@@ -33,4 +33,5 @@ picture cage --shadow-size 2048
 picture stage
 picture concert --shadow-size 2048
 picture projector
+picture orrery
 say "Done: look at out/gallery/"

@@ -147,6 +147,7 @@ Status Effect::State::renderChecked(const Frame& frame, const FrameTextures& tex
   if (!changesColour) recorder.skip("composite", "the medium neither scatters nor absorbs");
   if (!changesColour && !hasView(frame) && frame.output.inscatter == 0 && frame.output.transmittance == 0) return {};
 
+  if (frame.reuse.changes == Changes::Unknown) histories.forget(frame.reuse.view);
   if (frame.reuse.changes != Changes::Unknown && changesColour &&
       (!hasView(frame) || frame.settings.view == View::Redrawn)) {
     bool rests = false;

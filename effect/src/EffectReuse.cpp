@@ -29,6 +29,7 @@ Status Effect::State::renderReusing(const Frame& frame, const FrameTextures& tex
     recorder.skip("reuse", "the last frames had too little in common");
     return {};
   }
+  view.targets.endFrame();
   Destination kept;
   kept.inscatter = view.targets.get(Target::Inscatter, frame.width, frame.height);
   kept.transmittance = view.targets.get(Target::Transmittance, frame.width, frame.height);
@@ -48,6 +49,7 @@ Status Effect::State::renderReusing(const Frame& frame, const FrameTextures& tex
   Status status = redraw(frame, textures, lights, picture, kept);
   view.finish(frame, static_cast<bool>(status));
   if (picture == Redraw::All) view.targets.endFrame();
+  view.targets.hold();
   redrawnShare = -1;
   lastView = frame.reuse.view;
   if (status) status = copyToOutputs(frame, kept);

@@ -149,6 +149,11 @@ ViewHistory& Histories::of(std::uint64_t view) {
   return **found;
 }
 
+void Histories::forget(std::uint64_t view) {
+  views_.erase(std::remove_if(views_.begin(), views_.end(), [&](const auto& v) { return v->view() == view; }),
+               views_.end());
+}
+
 std::uint64_t Histories::bytes() const {
   std::uint64_t sum = 0;
   for (const auto& view : views_)

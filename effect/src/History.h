@@ -48,6 +48,7 @@ struct LightHistory {
   gl::Uint sampleEnds = 0, inscatter = 0, changedSlices = 0, changedSegments = 0;
   gl::Uint movedSlices = 0; ///< 0: all were compared
 
+  std::array<Targets*, 5> holders() { return {&kept, &ends[0], &ends[1], &rows[0], &rows[1]}; }
   std::uint64_t bytes() const;
 };
 
@@ -108,7 +109,7 @@ class Histories {
 public:
   explicit Histories(const gl::Functions& gl) : gl_(gl) {}
   ViewHistory& of(std::uint64_t view);
-  void clear() { views_.clear(); }
+  void forget(std::uint64_t view);
   std::uint64_t bytes() const;
 
 private:

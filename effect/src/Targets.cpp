@@ -119,6 +119,12 @@ void Targets::endFrame() {
       slot.used = false;
 }
 
+void Targets::hold() {
+  for (std::vector<Slot>& slots : slots_)
+    for (Slot& slot : slots)
+      slot.used = true;
+}
+
 gl::Uint Targets::stencil(int width, int height) {
   if (stencil_ && stencilWidth_ == width && stencilHeight_ == height) return stencil_.name();
   stencil_ = gl::Renderbuffer(gl_);

@@ -72,6 +72,9 @@ public:
   /// Gives up the textures that were not asked for since the last call.
   void endFrame();
 
+  /// Keeps all that it has, whatever is asked for, until endFrame().
+  void hold();
+
   /// GL memory held, in bytes.
   std::uint64_t bytes() const;
 

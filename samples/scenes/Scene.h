@@ -97,6 +97,7 @@ Scene makeStage(bool concert);
 Scene makeProjector();
 Scene makeOrrery();
 
+Scene makePendulum();
 /// The model of a glTF file, turning once in 12.5 s. Throws host::Error or std::runtime_error.
 Scene makeTurntable(const std::string& path);
 

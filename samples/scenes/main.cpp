@@ -23,6 +23,7 @@ const std::map<std::string, std::function<scenes::Scene()>>& generators() {
       {"concert", [] { return scenes::makeStage(true); }},
       {"projector", scenes::makeProjector},
       {"orrery", scenes::makeOrrery},
+      {"pendulum", scenes::makePendulum},
   };
   return kGenerators;
 }

@@ -233,7 +233,7 @@ Settings settingsOf(Profile profile);
 
 /// How a frame says what changed in the depth buffer and in the shadow and glass maps since its view's last frame.
 enum class Changes {
-  Unknown, ///< anything may have: the frame is drawn in full, and nothing is kept of it
+  Unknown, ///< anything may have: the frame is drawn in full, and nothing is kept of the view
   Detect,  ///< the effect compares them with the last frame's, but for those whose versions say that nothing changed
   Objects, ///< only what Frame::objects names, around which they are compared; versions are not looked at
 };

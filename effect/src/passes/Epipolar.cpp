@@ -169,6 +169,10 @@ Status prepare(const PassContext& pass, Targets& targets, PassRecorder& recorder
   }
   SliceContext context = contextOf(pass, targets, recorder, scratch, inputs);
   Interpolated made;
+  const bool all = history.redraw == Redraw::All;
+  if (all) // what it does not ask for is given up when it is done
+    for (Targets* kept : history.holders())
+      kept->endFrame();
   if (Status s = makeSlices(context); !s) return s;
   if (context.draws() > 1) history.redraw = Redraw::All; // rows are not at hand together, nor kept
   Status prepared = history.redraw == Redraw::All ? makeAll(context, made) : makeAndCompare(context, made, frame);
@@ -180,9 +184,10 @@ Status prepare(const PassContext& pass, Targets& targets, PassRecorder& recorder
   history.inscatter = made.inscatter;
   history.changedSlices = context.changedSlices;
   history.changedSegments = context.changedSegments;
-  if (history.redraw == Redraw::All)
-    for (Targets* kept : {&history.kept, &history.ends[0], &history.ends[1], &history.rows[0], &history.rows[1]})
-      kept->endFrame();
+  for (Targets* kept : history.holders()) {
+    if (all) kept->endFrame();
+    kept->hold();
+  }
   return {};
 }
 

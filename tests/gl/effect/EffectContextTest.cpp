@@ -241,7 +241,7 @@ void forEveryVariant(tests::SceneRig& scene, const std::function<void(const Fram
   const std::size_t lights = scene.frame.lights.size();
   for (int bits = 0; bits < 16; ++bits) {
     Frame frame = scene.frame;
-    frame.depth = (bits & 1) != 0 ? SceneDepth{samples.name(), true} : SceneDepth{depth, false};
+    frame.depth = (bits & 1) != 0 ? SceneDepth{samples.name(), true, 0} : SceneDepth{depth, false, 0};
     frame.output = (bits & 2) != 0 ? outputs : Output{};
     frame.medium.absorption[2] = (bits & 4) != 0 ? 0.25F : 0.5F;
     frame.settings.shadowFilter = (bits & 8) != 0 ? ShadowFilter::Bilinear : ShadowFilter::Nearest;
@@ -294,6 +294,25 @@ TEST_CASE("every shader variant compiles, and no frame needs another") {
   });
   CHECK(effect.statistics().compiledPrograms == count);
 
+  for (const Changes changes : {Changes::Detect, Changes::Objects})
+    for (const View view : {View::Composite, View::Redrawn}) {
+      std::uint64_t number = 0;
+      forEveryVariant(scene, [&](Frame frame) {
+        frame.settings.technique = Technique::Epipolar;
+        frame.settings.view = view;
+        frame.reuse.changes = changes;
+        frame.reuse.fullShare = 1;
+        for (int i = 0; i < 3; ++i) { // all, and then parts
+          frame.reuse.frame = ++number;
+          if (changes == Changes::Objects) frame.objects.assign(1, {});
+          if (changes == Changes::Detect) frame.depth.version = i == 2 ? 5 : 0;
+          const Status drawn = effect.render(frame);
+          INFO(drawn.message);
+          if (drawn.code != StatusCode::InvalidFrame) CHECK(drawn);
+        }
+      });
+      CHECK(effect.statistics().compiledPrograms == count);
+    }
   for (const Technique technique : {Technique::Tree, Technique::Epipolar})
     for (const View view : {View::Composite, View::Slices, View::Samples, View::Breaks, View::MarchSamples,
                             View::FixupPixels, View::NodeVisits, View::Difference}) {

@@ -254,3 +254,29 @@ TEST_CASE("fields of reuse that break their rule are refused, field and rule nam
     f.reuse.changes = Changes::Detect;
   });
 }
+
+TEST_CASE("what is kept is given up with Changes::Unknown, and what a new size replaces at once") {
+  tests::ShaftRig rig = sunlit(Changes::Detect);
+  const auto bytes = [] { return tests::testEffect().statistics().bytes; };
+  Frame& frame = rig.scene.frame;
+  frame.reuse.changes = Changes::Unknown;
+  rig.scene.render();
+  const std::uint64_t without = bytes();
+  frame.reuse.changes = Changes::Detect;
+  shareOf(rig);
+  const std::uint64_t with = bytes();
+  const int slicesBefore = frame.settings.slices;
+  CHECK(with > without);
+  for (const int slices : {30, 100, 30, 100}) { // the textures of one at a time
+    frame.settings.slices = slices;
+    shareOf(rig);
+    reused(rig);
+    CHECK(bytes() <= 2 * with);
+  }
+  const std::uint64_t view = frame.reuse.view;
+  frame.settings.slices = slicesBefore;
+  frame.reuse = {};
+  frame.reuse.view = view;
+  rig.scene.render();
+  CHECK(bytes() == without);
+}

@@ -354,6 +354,32 @@ TEST_CASE("debug views leave a poisoned GL state alone") {
   }
 }
 
+TEST_CASE("frames that reuse the last one leave a poisoned GL state alone") {
+  FullFrame full;
+  Frame frame = full.rig.frame;
+  frame.settings.technique = Technique::Epipolar;
+  for (const Changes changes : {Changes::Detect, Changes::Objects})
+    for (const View view : {View::Composite, View::Redrawn})
+      for (int number = 0; number < 4; ++number) { // all, parts of it, nothing
+        frame.settings.view = view;
+        frame.reuse = {changes, 71, static_cast<std::uint64_t>(number), 1.0F, 0};
+        frame.objects.clear();
+        if (changes == Changes::Objects && number < 3) frame.objects.assign(1, {});
+        const Poison poison;
+        const State before = captureState();
+        const Status status = tests::testEffect().render(frame);
+        const State after = captureState();
+        Poison::lift();
+        INFO(status.message);
+        CAPTURE(static_cast<int>(changes), static_cast<int>(view), number);
+        CHECK(status);
+        for (const auto& [name, values] : before) {
+          INFO(name);
+          CHECK(values == after.at(name));
+        }
+      }
+}
+
 TEST_CASE("a poisoned state gives the same picture") {
   FullFrame full;
   const reference::ImageAnswer expected = full.rig.render();
