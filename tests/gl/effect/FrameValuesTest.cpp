@@ -216,7 +216,7 @@ const std::vector<Breakage> kBreakages = {
      [](Frame& f) { setEnum(f.medium.constituents[0].phase, -1); },
      {"medium.constituents[0].phase is -1", "enumerators"}},
     {"technique", [](Frame& f) { setEnum(f.settings.technique, 99); }, {"settings.technique is 99", "enumerators"}},
-    {"view", [](Frame& f) { setEnum(f.settings.view, 10); }, {"settings.view is 10", "enumerators"}},
+    {"view", [](Frame& f) { setEnum(f.settings.view, 11); }, {"settings.view is 11", "enumerators"}},
     {"view below", [](Frame& f) { setEnum(f.settings.view, -1); }, {"settings.view is -1", "enumerators"}},
     {"slices of exact",
      [](Frame& f) { f.settings.view = View::Slices; },
