@@ -11,9 +11,17 @@ namespace {
 
 constexpr int kLongestRest = 16;
 
+// A block has no padding: all of it is what shaders read.
+template <typename Block>
+std::array<std::uint32_t, sizeof(Block) / 4> wordsOf(const Block& block) {
+  std::array<std::uint32_t, sizeof(Block) / 4> words;
+  std::memcpy(words.data(), &block, sizeof block);
+  return words;
+}
+
 template <typename Block>
 bool same(const Block& a, const Block& b) {
-  return std::memcmp(&a, &b, sizeof a) == 0; // blocks have no padding
+  return wordsOf(a) == wordsOf(b);
 }
 
 auto fieldsOf(const Settings& s) {

@@ -77,9 +77,9 @@ Status findMoved(SliceContext& context, int frame) {
     std::fill(begin, end, std::find(begin, end, true) != end);
   }
   std::vector<glm::vec4> texels(moved.size(), glm::vec4(0));
-  const auto segments = static_cast<float>(context.slices.samples / 16);
+  const int segments = context.slices.samples / 16;
   std::transform(moved.begin(), moved.end(), texels.begin(),
-                 [&](bool m) { return m ? glm::vec4(0, segments, 1, 1) : glm::vec4(0); });
+                 [&](bool m) { return m ? glm::vec4(0, static_cast<float>(segments), 1, 1) : glm::vec4(0); });
   return slices::uploadTable(context.pass, in.history->kept, Target::MovedSlices, context.slices.count, 1, texels,
                              context.changedSlices);
 }
