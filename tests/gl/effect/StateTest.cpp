@@ -297,6 +297,21 @@ struct FullFrame {
   }
 };
 
+// Renders; every row of the state must be afterwards what it was.
+void checkStateKept(const Frame& frame, bool valid = true) {
+  const Poison poison;
+  const State before = captureState();
+  const Status status = tests::testEffect().render(frame);
+  const State after = captureState();
+  Poison::lift();
+  INFO(status.message);
+  CHECK(static_cast<bool>(status) == valid);
+  for (const auto& [name, values] : before) {
+    INFO(name);
+    CHECK(values == after.at(name));
+  }
+}
+
 } // namespace
 
 TEST_CASE("GL state on return equals GL state on entry, every row of it poisoned") {
@@ -310,19 +325,7 @@ TEST_CASE("GL state on return equals GL state on entry, every row of it poisoned
         frame.settings.technique = technique;
         if (!outputs) frame.output = {};
         if (!valid) frame.depth.texture = full.colour.name();
-        {
-          const Poison poison;
-          const State before = captureState();
-          const Status status = tests::testEffect().render(frame);
-          const State after = captureState();
-          Poison::lift();
-          INFO(status.message);
-          CHECK(static_cast<bool>(status) == valid);
-          for (const auto& [name, values] : before) {
-            INFO(name);
-            CHECK(values == after.at(name));
-          }
-        }
+        checkStateKept(frame, valid);
       }
   // The poison did not get into the picture either.
   const reference::ImageAnswer again = full.rig.render();
@@ -338,19 +341,9 @@ TEST_CASE("debug views leave a poisoned GL state alone") {
   const double visits = tests::testEffect().statistics().visitsPerRay;
   for (int view = 1; view <= static_cast<int>(View::Redrawn); ++view) {
     frame.settings.view = static_cast<View>(view);
-    const Poison poison;
-    const State before = captureState();
-    const Status status = tests::testEffect().render(frame);
-    const State after = captureState();
-    Poison::lift();
-    INFO(status.message);
     CAPTURE(view);
-    CHECK(status);
+    checkStateKept(frame);
     if (frame.settings.view == View::NodeVisits) CHECK(tests::testEffect().statistics().visitsPerRay == visits);
-    for (const auto& [name, values] : before) {
-      INFO(name);
-      CHECK(values == after.at(name));
-    }
   }
 }
 
@@ -365,18 +358,8 @@ TEST_CASE("frames that reuse the last one leave a poisoned GL state alone") {
         frame.reuse = {changes, 71, static_cast<std::uint64_t>(number), 1.0F, 0};
         frame.objects.clear();
         if (changes == Changes::Objects && number < 3) frame.objects.assign(1, {});
-        const Poison poison;
-        const State before = captureState();
-        const Status status = tests::testEffect().render(frame);
-        const State after = captureState();
-        Poison::lift();
-        INFO(status.message);
         CAPTURE(static_cast<int>(changes), static_cast<int>(view), number);
-        CHECK(status);
-        for (const auto& [name, values] : before) {
-          INFO(name);
-          CHECK(values == after.at(name));
-        }
+        checkStateKept(frame);
       }
 }
 
