@@ -29,10 +29,12 @@ Status Effect::State::renderReusing(const Frame& frame, const FrameTextures& tex
     recorder.skip("reuse", "the last frames had too little in common");
     return {};
   }
-  view.targets.endFrame();
   Destination kept;
-  kept.inscatter = view.targets.get(Target::Inscatter, frame.width, frame.height);
-  kept.transmittance = view.targets.get(Target::Transmittance, frame.width, frame.height);
+  const auto ask = [&] {
+    kept.inscatter = view.targets.get(Target::Inscatter, frame.width, frame.height);
+    kept.transmittance = view.targets.get(Target::Transmittance, frame.width, frame.height);
+  };
+  ask();
   kept.composite = frame.colour != 0;
   if (!kept.inscatter || !kept.transmittance)
     return {StatusCode::OutOfMemory, "GL could not allocate the textures of Frame::reuse"};
@@ -46,9 +48,14 @@ Status Effect::State::renderReusing(const Frame& frame, const FrameTextures& tex
     key.lights.push_back({light.block, light.settings, textures.shadows[light.index], light.variant});
   }
   Redraw picture = view.plan(key, frame);
+  const bool all = picture == Redraw::All;
+  if (all) { // what it does not ask for is given up when it is done
+    view.targets.endFrame();
+    ask();
+  }
   Status status = redraw(frame, textures, lights, picture, kept);
   view.finish(frame, static_cast<bool>(status));
-  if (picture == Redraw::All) view.targets.endFrame();
+  if (all) view.targets.endFrame();
   view.targets.hold();
   redrawnShare = -1;
   lastView = frame.reuse.view;
@@ -66,13 +73,13 @@ Status Effect::State::redraw(const Frame& frame, const FrameTextures& textures, 
     return {};
   }
   ViewHistory& view = histories.of(frame.reuse.view);
-  if (frame.settings.technique == Technique::Epipolar && !frame.depth.multisampled && !lights.empty()) {
+  const bool inParts = drawsInParts(frame) && !lights.empty();
+  if (inParts) {
     if (Status s = redrawSlices(frame, textures, lights, picture, destination); !s) return s;
   } else {
     if (Status s = drawLights(frame, textures, destination); !s) return s;
   }
-  if (picture != Redraw::All || frame.settings.technique != Technique::Epipolar || frame.depth.multisampled) return {};
-  return keepDepth(frame, view, 0);
+  return picture == Redraw::All && inParts ? keepDepth(frame, view, 0) : Status{};
 }
 
 Status Effect::State::redrawSlices(const Frame& frame, const FrameTextures& textures,

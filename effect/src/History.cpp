@@ -48,6 +48,11 @@ std::uint64_t LightHistory::bytes() const {
   return kept.bytes() + ends[0].bytes() + ends[1].bytes() + rows[0].bytes() + rows[1].bytes();
 }
 
+bool drawsInParts(const Frame& frame) {
+  return frame.settings.technique == Technique::Epipolar && !frame.depth.multisampled &&
+         !std::isfinite(frame.settings.spreadThreshold);
+}
+
 bool ViewHistory::rests() {
   judge();
   if (rest_ == 0) return false;
@@ -62,9 +67,7 @@ Redraw ViewHistory::plan(const FrameKey& key, const Frame& frame) {
   const bool detects = frame.reuse.changes == Changes::Detect;
   bool all = !valid_ || !same(key.block, key_.block) || fieldsOf(key.settings) != fieldsOf(key_.settings) ||
              key.drawn != key_.drawn || (!detects && frame.reuse.frame != frame_ + 1);
-  // A part of a picture is drawn by slices only, and against its mean inscatter not even that.
-  const bool inParts = key.settings.technique == Technique::Epipolar && !frame.depth.multisampled &&
-                       !std::isfinite(key.settings.spreadThreshold) && !key.drawn.empty();
+  const bool inParts = drawsInParts(frame) && !key.drawn.empty();
   const bool sameDepth = detects ? isStated(frame.depth.version, depthVersion_) : frame.objects.empty();
   all = all || (!sameDepth && (!inParts || !keepsDepth));
   while (lights_.size() < frame.lights.size())
@@ -100,8 +103,11 @@ void ViewHistory::planLight(const FrameKey& key, std::size_t i, const Frame& fra
 
 void ViewHistory::finish(const Frame& frame, bool drawn) {
   valid_ = drawn;
-  for (std::size_t i = 0; i < lights_.size(); ++i)
-    lights_[i]->valid = drawn && std::find(key_.drawn.begin(), key_.drawn.end(), i) != key_.drawn.end();
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    const bool used = std::find(key_.drawn.begin(), key_.drawn.end(), i) != key_.drawn.end();
+    if (!used && lights_[i]->valid) lights_[i] = std::make_unique<LightHistory>(gl_); // gives its textures up
+    lights_[i]->valid = drawn && used;
+  }
   depthVersion_ = frame.depth.version;
   frame_ = frame.reuse.frame;
   ++frames;

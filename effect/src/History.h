@@ -60,6 +60,10 @@ struct FrameKey {
   std::vector<LightKey> lights;   ///< of those
 };
 
+/// True if a part of a picture can be drawn: by slices only, and against its mean inscatter (spreadThreshold) not even
+/// then.
+bool drawsInParts(const Frame& frame);
+
 class ViewHistory {
 public:
   ViewHistory(const gl::Functions& gl, std::uint64_t view) : targets(gl), view_(view), gl_(gl) {}

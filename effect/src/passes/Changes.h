@@ -1,5 +1,6 @@
 // Changes: which slices, segments and pixels are not what they were in the last frame (Frame::reuse;
-// glsl/passes/changedSlices, mask, keepDepth, changedStrips).
+// glsl/passes/changedEnds, changedParts,
+// changedSegments, changedSlices, changedStrips, changedTiles, tiles, copyTexels, keepDepth).
 #pragma once
 
 #include "passes/Rows.h"

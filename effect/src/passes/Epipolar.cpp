@@ -178,12 +178,12 @@ Status prepare(const PassContext& pass, Targets& targets, PassRecorder& recorder
   Status prepared = history.redraw == Redraw::All ? makeAll(context, made) : makeAndCompare(context, made, frame);
   if (prepared) prepared = runToInterpolate(context, made);
   if (!prepared) return prepared;
-  history.geometry = std::move(context.slices);
-  history.row = made.rows;
+  history.row = context.draws() == 1 ? made.rows : rows::Out{}; // else they are not the light's own
   history.sampleEnds = made.samples.ends;
   history.inscatter = made.inscatter;
   history.changedSlices = context.changedSlices;
   history.changedSegments = context.changedSegments;
+  history.geometry = std::move(context.slices);
   for (Targets* kept : history.holders()) {
     if (all) kept->endFrame();
     kept->hold();

@@ -83,6 +83,7 @@ std::vector<gl::Variant> variantsOf(const exact::Variant& variant) {
   return {{"passes/unwarp.frag", definitionsOf(variant, false)},
           changes::overTiles({"passes/unwarp.frag", definitionsOf(variant, false)}),
           changes::overTiles({"passes/pixelTree.frag", exact::definitionsOf(variant)}),
+          changes::overTiles({"passes/exact.frag", exact::definitionsOf(variant)}),
           {"passes/unwarp.frag", definitionsOf(variant, true)},
           {"passes/fixup.frag", exact::definitionsOf(variant)}};
 }

@@ -276,3 +276,55 @@ TEST_CASE("what is kept is given up with Changes::Unknown, and what a new size r
   frame.settings.slices = slices;
   CHECK(bytesOf(Changes::Unknown) == without);
 }
+
+TEST_CASE(
+    "with a spread threshold, which needs the picture's mean, any change draws all of the picture as it would be") {
+  tests::ShaftRig rig = sunlit(Changes::Detect);
+  Frame& frame = rig.scene.frame;
+  frame.settings.spreadThreshold = 0.01F;
+  for (int i = 0; i < 3; ++i) {
+    rig.setMoving({tumbling(i)});
+    frame.depth.version = frame.lights[0].shadow.version = static_cast<std::uint64_t>(20 + i);
+    CHECK(shareOf(rig) == 1);
+    CHECK(shareOf(rig) == 0);
+  }
+}
+
+TEST_CASE("a light of several draws keeps its slices while another one's change") {
+  tests::ShaftRig rig(8192, 1); // so many slices that four views do not fit
+  Light cascaded = sun();
+  cascaded.shadow.views = tests::shadowViews(cascaded, 4);
+  rig.addLight(cascaded, 64);
+  rig.addLight(sun(), 64);
+  Frame& frame = rig.scene.frame;
+  frame.settings.slices = 8192;
+  begin(rig, Changes::Detect);
+  frame.depth.version = frame.lights[0].shadow.version = frame.lights[1].shadow.version = 1;
+  CHECK(shareOf(rig) == 1);
+  for (std::uint64_t version = 2; version < 4; ++version) { // said to have changed
+    frame.lights[1].shadow.version = version;
+    const Picture picture = reused(rig);
+    const std::vector<std::string> names = passesRun();
+    CHECK(picture.share == 0);
+    CHECK(std::find(names.begin(), names.end(), "light 0 rows") == names.end());
+    checkSame(picture, full(rig));
+  }
+  frame.lights[1].colour = {2, 1, 1};
+  CHECK(shareOf(rig) < 1);
+}
+
+TEST_CASE("a light that is gone leaves nothing behind") {
+  const CreateResult own = Effect::create({tests::testContext().loader()});
+  REQUIRE(own.effect);
+  tests::ShaftRig rig = sunlit(Changes::Detect);
+  const auto bytes = [&] {
+    for (int i = 0; i < 2; ++i)
+      rig.scene.render(*own.effect);
+    return own.effect->statistics().bytes;
+  };
+  const std::uint64_t one = bytes();
+  rig.addLight(spot(), 64);
+  CHECK(bytes() > one);
+  rig.scene.frame.lights.pop_back();
+  CHECK(bytes() <= one);
+}
