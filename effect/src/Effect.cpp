@@ -98,13 +98,10 @@ Status Effect::compileAll() {
   for (const auto& variants : {passes::epipolar::allVariants(), passes::view::allVariants()})
     for (const gl::Variant& v : variants)
       if (!state_->programs.use(v.fragment, v.definitions, v.vertex)) return state_->shaderError();
-  for (const char* fragment : {"passes/composite.frag", "passes/copyImage.frag"})
-    if (!state_->programs.use(fragment, {})) return state_->shaderError();
-  for (const char* vertex : {gl::kFullScreen, "passes/tiles.vert"}) {
-    if (!state_->programs.use("passes/keepDepth.frag", {{"DEPTH_MULTISAMPLED", 0}}, vertex))
-      return state_->shaderError();
-    if (!state_->programs.use("passes/viewFixup.frag", {}, vertex)) return state_->shaderError();
-  }
+  if (!state_->programs.use("passes/composite.frag", {})) return state_->shaderError();
+  for (const char* fragment : {"passes/copyTexels.frag", "passes/viewFixup.frag"})
+    for (const char* vertex : {gl::kFullScreen, "passes/tiles.vert"})
+      if (!state_->programs.use(fragment, {}, vertex)) return state_->shaderError();
   return {};
 }
 

@@ -18,7 +18,7 @@ namespace tyndall {
 
 namespace {
 
-const gl::Variant kKeepDepth = {"passes/keepDepth.frag", {{"DEPTH_MULTISAMPLED", 0}}};
+const gl::Variant kCopy = {"passes/copyTexels.frag", {}};
 
 } // namespace
 
@@ -155,9 +155,9 @@ Status Effect::State::keepDepth(const Frame& frame, ViewHistory& view, gl::Uint 
   const gl::Uint last = view.targets.get(Target::LastDepth, frame.width, frame.height);
   if (!last) return {StatusCode::OutOfMemory, "GL could not allocate the textures of Frame::reuse"};
   if (Status s = attach(frame, last, 0); !s) return s;
-  passes::bindTexture(passContext(), gl::Unit::SceneDepth, gl::TEXTURE_2D, frame.depth.texture);
+  passes::bindTexture(passContext(), gl::Unit::ViewImage, gl::TEXTURE_2D, frame.depth.texture);
   setBlend(passContext(), passes::Blend::Replace);
-  view.keepsDepth = recorder.run("keep depth", [&] { return drawTiles(frame, kKeepDepth, tiles); });
+  view.keepsDepth = recorder.run("keep depth", [&] { return drawTiles(frame, kCopy, tiles); });
   return view.keepsDepth ? Status{} : shaderError();
 }
 
@@ -174,10 +174,9 @@ Status Effect::State::copyToOutputs(const Frame& frame, const Destination& kept)
   for (const auto& [from, to] : copies) {
     if (to == 0) continue;
     if (Status s = attach(frame, to, 0); !s) return s;
-    passes::bindTexture(passContext(), gl::Unit::Inscatter, gl::TEXTURE_2D, from);
+    passes::bindTexture(passContext(), gl::Unit::ViewImage, gl::TEXTURE_2D, from);
     setBlend(passContext(), passes::Blend::Replace);
-    if (!recorder.run("output", [&] { return passes::drawFullScreen(passContext(), "passes/copyImage.frag", {}); }))
-      return shaderError();
+    if (!recorder.run("output", [&] { return drawTiles(frame, kCopy, 0); })) return shaderError();
   }
   return {};
 }

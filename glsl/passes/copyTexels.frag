@@ -1,4 +1,4 @@
-// Copy texels: a texture of slices or rows into the one that is kept. Reads and writes texel by texel.
+// Copy texels: a texture of slices or rows, a depth or a kept picture into another texture of the same size.
 uniform sampler2D image;
 layout(location = 0) out vec4 outTexel;
 

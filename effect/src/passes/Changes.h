@@ -1,6 +1,6 @@
 // Changes: which slices, segments and pixels are not what they were in the last frame (Frame::reuse;
 // glsl/passes/changedEnds, changedParts,
-// changedSegments, changedSlices, changedStrips, changedTiles, tiles, copyTexels, keepDepth).
+// changedSegments, changedSlices, changedStrips, changedTiles, tiles, copyTexels).
 #pragma once
 
 #include "passes/Rows.h"

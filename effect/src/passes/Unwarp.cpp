@@ -1,11 +1,32 @@
 #include "passes/Unwarp.h"
 
 #include "passes/Changes.h"
-#include "passes/StencilTest.h"
 
 namespace tyndall::passes::unwarp {
 
 namespace {
+
+/// The stencil test, while this lives.
+class StencilTest {
+public:
+  struct Rule {
+    gl::Enum function; ///< compares reference and stencil, both & mask
+    gl::Int reference; ///< also what REPLACE writes
+    gl::Uint mask;
+    gl::Enum passed; ///< KEEP or REPLACE
+  };
+  StencilTest(const gl::Functions& gl, const Rule& rule) : gl_(gl) {
+    gl.Enable(gl::STENCIL_TEST);
+    gl.StencilFunc(rule.function, rule.reference, rule.mask);
+    gl.StencilOp(gl::KEEP, gl::KEEP, rule.passed);
+  }
+  ~StencilTest() { gl_.Disable(gl::STENCIL_TEST); }
+  StencilTest(const StencilTest&) = delete;
+  StencilTest& operator=(const StencilTest&) = delete;
+
+private:
+  const gl::Functions& gl_;
+};
 
 constexpr StencilTest::Rule kServing = {gl::ALWAYS, 1, 0xFF, gl::REPLACE}, kUnserved = {gl::EQUAL, 0, 0xFF, gl::KEEP};
 
