@@ -207,6 +207,14 @@ Status checkSettings(const Settings& settings) {
   return {};
 }
 
+Status checkMesh(const std::string& field, const MeshVertices& mesh) {
+  if (mesh.buffer == 0) return {};
+  if (mesh.stride < 12) return invalid(field + "stride", std::to_string(mesh.stride), "must be at least 12");
+  if (mesh.count < 1 || mesh.count > 1U << 24)
+    return invalid(field + "count", std::to_string(mesh.count), "must be 1 to 16777216");
+  return {};
+}
+
 Status checkReuse(const Frame& frame) {
   const Reuse& reuse = frame.reuse;
   if (reuse.changes < Changes::Unknown || reuse.changes > Changes::Objects)
@@ -221,13 +229,14 @@ Status checkReuse(const Frame& frame) {
   for (std::size_t i = 0; i < frame.objects.size(); ++i) {
     const std::string field = "objects[" + std::to_string(i) + "].";
     const MovingObject& object = frame.objects[i];
-    for (const auto& [name, matrix] :
-         {std::pair{"worldFromBox", &object.worldFromBox}, std::pair{"lastWorldFromBox", &object.lastWorldFromBox}}) {
+    for (const auto& [name, matrix] : {std::pair{"worldFromObject", &object.worldFromObject},
+                                       std::pair{"lastWorldFromObject", &object.lastWorldFromObject}}) {
       if (Status s = checkMatrix(field + name, *matrix); !s) return s;
       const Mat4& m = *matrix;
       if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
         return invalid(field + name, "not affine", "its last row must be (0, 0, 0, 1)");
     }
+    if (Status s = checkMesh(field + "mesh.", object.mesh); !s) return s;
   }
   return {};
 }

@@ -66,6 +66,15 @@ CreateResult Effect::create(const Config& config) {
   return {std::unique_ptr<Effect>(new Effect(std::move(state))), {}};
 }
 
+namespace {
+
+bool hasMeshes(const Frame& frame) {
+  return std::any_of(frame.objects.begin(), frame.objects.end(),
+                     [](const MovingObject& object) { return object.mesh.buffer != 0; });
+}
+
+} // namespace
+
 Status Effect::render(const Frame& frame) {
   State& state = *state_;
   if (Status s = state.checkContext(); !s) return s;
@@ -73,9 +82,14 @@ Status Effect::render(const Frame& frame) {
   const gl::StateGuard guard(state.gl);
   FrameTextures textures;
   if (Status s = checkTextures(state.gl, frame, textures); !s) return s;
+  Frame boxed;
+  if (hasMeshes(frame)) {
+    boxed = frame;
+    if (Status s = state.objectBoxes.boxesOf(frame, boxed.objects); !s) return s;
+  }
   state.recorder.beginFrame();
   state.redrawnShare = 1;
-  Status status = state.renderChecked(frame, textures);
+  Status status = state.renderChecked(hasMeshes(frame) ? boxed : frame, textures);
   state.targets.endFrame();
   return status;
 }

@@ -4,6 +4,7 @@
 
 #include "CheckFrame.h"
 #include "History.h"
+#include "ObjectBoxes.h"
 #include "PassRecorder.h"
 #include "Targets.h"
 #include "gl/Program.h"
@@ -16,13 +17,15 @@
 namespace tyndall {
 
 struct Effect::State {
-  explicit State(const Config& config) : programs(gl), targets(gl), recorder(gl, config.timing), histories(gl) {}
+  explicit State(const Config& config)
+      : programs(gl), targets(gl), recorder(gl, config.timing), histories(gl), objectBoxes(gl) {}
 
   gl::Functions gl;
   gl::ProgramCache programs;
   Targets targets;
   PassRecorder recorder;
   Histories histories;
+  ObjectBoxes objectBoxes;
   double redrawnShare = 1; // of the last frame; < 0: the view's history knows
   std::uint64_t lastView = 0;
   gl::VertexArray vertexArray;

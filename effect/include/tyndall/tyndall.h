@@ -256,11 +256,23 @@ struct Reuse {
   int refreshFrames = 0;
 };
 
-/// A box that holds all of an object that moved, appeared or vanished, in the last frame and in this one. The same
-/// box twice for one that was, or is, in one of the two only.
+/// The vertices of a mesh in a GL buffer: three floats each. They are read back once to fit a box around them, so that
+/// from then on a mesh costs what a box does, whatever its triangles. The last 1024 meshes are remembered.
+struct MeshVertices {
+  std::uint32_t buffer = 0;  ///< name of a buffer, not mapped but persistently; 0: no mesh
+  std::uint64_t offset = 0;  ///< bytes to the first vertex's position
+  std::uint32_t stride = 12; ///< bytes from one position to the next, at least 12
+  std::uint32_t count = 0;   ///< vertices, 1 to 2^24; all in the buffer and finite
+  std::uint64_t version = 0; ///< of what the buffer holds, as SceneDepth::version; 0: read anew in every frame
+};
+
+/// An object that moved, appeared or vanished: what holds all of it in the last frame and in this one, a box or its
+/// mesh. The same matrix twice for one that was, or is, in one of the two only.
 struct MovingObject {
-  Mat4 worldFromBox = kIdentity;     ///< places the cube from -1 to 1 around the object: affine, invertible
-  Mat4 lastWorldFromBox = kIdentity; ///< as it was in the view's last frame
+  /// Places the cube from -1 to 1 around the object, or the mesh from its own coordinates: affine, invertible.
+  Mat4 worldFromObject = kIdentity;
+  Mat4 lastWorldFromObject = kIdentity; ///< as it was in the view's last frame
+  MeshVertices mesh = {};
 };
 
 /// Textures of the engine's own to write instead of, or besides, blending into Frame::colour. GL_TEXTURE_2D, a float

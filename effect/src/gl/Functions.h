@@ -73,6 +73,10 @@ using Uint64 = std::uint64_t;
   X(void, BindBufferBase, (Enum target, Uint index, Uint buffer), UniformBuffers)                                      \
   X(void, BindBufferRange, (Enum target, Uint index, Uint buffer, Intptr offset, Sizeiptr size), UniformBuffers)       \
   X(void, BufferData, (Enum target, Sizeiptr size, const void* data, Enum usage), None)                                \
+  X(Boolean, IsBuffer, (Uint buffer), None)                                                                            \
+  X(void, GetBufferParameteriv, (Enum target, Enum name, Int * value), None)                                           \
+  X(void, GetBufferParameteri64v, (Enum target, Enum name, Int64 * value), None)                                       \
+  X(void, GetBufferSubData, (Enum target, Intptr offset, Sizeiptr size, void* data), None)                             \
   X(void, GenVertexArrays, (Sizei n, Uint * names), None)                                                              \
   X(void, DeleteVertexArrays, (Sizei n, const Uint* names), None)                                                      \
   X(void, BindVertexArray, (Uint array), VertexArray)                                                                  \

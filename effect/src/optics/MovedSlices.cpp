@@ -121,11 +121,11 @@ Interval intervalOf(const MovingObject& object, const Frame& frame, const Planes
   const dvec3 origin = cameraOrigin(frame.camera);
   const double texels = frame.settings.shadowFilter == ShadowFilter::Bilinear ? kFilterTexels : kTexels;
   double margin = 0;
-  for (const Mat4* pose : {&object.worldFromBox, &object.lastWorldFromBox})
+  for (const Mat4* pose : {&object.worldFromObject, &object.lastWorldFromObject})
     for (const dvec3& corner : cornersOf(*pose, origin, 0))
       margin = std::max({margin, kPixels * planes.pixelAt(corner), texels * texelAt(light, block, corner)});
   std::vector<double> places;
-  for (const Mat4* pose : {&object.worldFromBox, &object.lastWorldFromBox})
+  for (const Mat4* pose : {&object.worldFromObject, &object.lastWorldFromObject})
     for (const dvec3& corner : cornersOf(*pose, origin, margin))
       places.push_back(planes.placeOf(corner));
   for (const double place : places)

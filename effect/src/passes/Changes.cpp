@@ -69,7 +69,11 @@ Status compareRows(SliceContext& context, const In& in, gl::Uint& parts) {
 Status findMoved(SliceContext& context, int frame) {
   const SliceInputs& in = context.inputs;
   const glm::ivec4 refresh = refreshed(context, frame);
-  std::vector<bool> moved = optics::movedSlices(*in.frame, *in.light, in.history->key.block, context.slices.geometry);
+  std::vector<bool> moved;
+  context.recorder.run("moved slices", [&] {
+    moved = optics::movedSlices(*in.frame, *in.light, in.history->key.block, context.slices.geometry);
+    return true;
+  });
   std::fill(moved.begin() + refresh.x, moved.begin() + refresh.y, true);
   for (std::size_t i = 0; i < moved.size(); i += 8) { // as changedSlices.frag has them: of eight slices
     const auto begin = moved.begin() + static_cast<std::ptrdiff_t>(i);

@@ -237,17 +237,17 @@ TEST_CASE("fields of reuse that break their rule are refused, field and rule nam
   checkRefused("reuse.fullShare is -1", [](Frame& f) { f.reuse.fullShare = -1; });
   checkRefused("reuse.fullShare is nan", [](Frame& f) { f.reuse.fullShare = static_cast<float>(kNan); });
   checkRefused("reuse.refreshFrames is -3", [](Frame& f) { f.reuse.refreshFrames = -3; });
-  checkRefused("objects[1].worldFromBox is not finite", [](Frame& f) {
+  checkRefused("objects[1].worldFromObject is not finite", [](Frame& f) {
     f.objects.resize(2);
-    f.objects[1].worldFromBox[4] = kNan;
+    f.objects[1].worldFromObject[4] = kNan;
   });
-  checkRefused("objects[0].lastWorldFromBox is singular", [](Frame& f) {
+  checkRefused("objects[0].lastWorldFromObject is singular", [](Frame& f) {
     f.objects.resize(1);
-    f.objects[0].lastWorldFromBox[0] = 0; // no extent
+    f.objects[0].lastWorldFromObject[0] = 0; // no extent
   });
-  checkRefused("objects[0].worldFromBox is not affine", [](Frame& f) {
+  checkRefused("objects[0].worldFromObject is not affine", [](Frame& f) {
     f.objects.resize(1);
-    f.objects[0].worldFromBox[3] = 0.5;
+    f.objects[0].worldFromObject[3] = 0.5;
   });
   checkRefused("objects is 1 long", [](Frame& f) {
     f.objects.resize(1);

@@ -349,6 +349,10 @@ TEST_CASE("debug views leave a poisoned GL state alone") {
 
 TEST_CASE("frames that reuse the last one leave a poisoned GL state alone") {
   FullFrame full;
+  const host::GlBuffer vertices = host::makeBuffer();
+  host::gl().BindBuffer(GL_ARRAY_BUFFER, vertices.name());
+  constexpr std::array<float, 9> kTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 1};
+  host::gl().BufferData(GL_ARRAY_BUFFER, sizeof kTriangle, kTriangle.data(), GL_STATIC_DRAW);
   Frame frame = full.rig.frame;
   frame.settings.technique = Technique::Epipolar;
   for (const Changes changes : {Changes::Detect, Changes::Objects})
@@ -358,6 +362,7 @@ TEST_CASE("frames that reuse the last one leave a poisoned GL state alone") {
         frame.reuse = {changes, 71, static_cast<std::uint64_t>(number), 1.0F, 0};
         frame.objects.clear();
         if (changes == Changes::Objects && number < 3) frame.objects.assign(1, {});
+        if (!frame.objects.empty() && number > 0) frame.objects[0].mesh = {vertices.name(), 0, 12, 3, 0};
         CAPTURE(static_cast<int>(changes), static_cast<int>(view), number);
         checkStateKept(frame);
       }

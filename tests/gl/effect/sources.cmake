@@ -16,6 +16,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/FrameValuesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/LowRankTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ReuseFrameTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/ReuseMeshTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ReuseTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MemoryTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/NonFiniteTest.cpp

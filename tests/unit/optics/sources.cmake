@@ -1,4 +1,5 @@
 set(TYNDALL_UNIT_OPTICS_SOURCES ${CMAKE_CURRENT_LIST_DIR}/LowRankTest.cpp
+                               ${CMAKE_CURRENT_LIST_DIR}/MeshBoxTest.cpp
                                ${CMAKE_CURRENT_LIST_DIR}/SampleBudgetTest.cpp)
 # Eigen's and the library's own headers, for these files only.
 find_package(Eigen3 REQUIRED)
