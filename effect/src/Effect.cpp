@@ -1,4 +1,5 @@
 #include "EffectState.h"
+#include "LoadFunctions.h"
 #include "SampleBudget.h"
 #include "gl/StateGuard.h"
 #include "optics/Blocks.h"
@@ -46,22 +47,7 @@ CreateResult Effect::create(const Config& config) {
             {StatusCode::InvalidConfig, "Config::timing is " + std::to_string(static_cast<int>(config.timing)) +
                                             ": must be one of the enumerators"}};
   auto state = std::make_unique<State>(config);
-  gl::Functions& gl = state->gl;
-  const std::string missing = gl.load(config.loader);
-  if (!gl.GetString || !gl.GetString(gl::VERSION))
-    return {nullptr, {StatusCode::NoContext, "no GL context is current on this thread"}};
-  const std::string version = reinterpret_cast<const char*>(gl.GetString(gl::VERSION));
-  if (!gl.GetIntegerv) return {nullptr, {StatusCode::ContextTooOld, "the loader knows no " + missing}};
-  gl::Int major = 0, minor = 0;
-  gl.GetIntegerv(gl::MAJOR_VERSION, &major); // an error, and 0, before OpenGL 3.0
-  gl.GetIntegerv(gl::MINOR_VERSION, &minor);
-  gl.version = 10 * major + minor;
-  if (gl.version < 33 || version.rfind("OpenGL ES", 0) == 0)
-    return {nullptr,
-            {StatusCode::ContextTooOld, "the context is \"" + version + "\": OpenGL 3.3 core or later is needed"}};
-  if (!missing.empty())
-    return {nullptr,
-            {StatusCode::ContextTooOld, "the context is \"" + version + "\" but the loader knows no " + missing}};
+  if (Status s = loadFunctions(state->gl, config.loader, 33, {}); !s) return {nullptr, s};
   state->createObjects();
   return {std::unique_ptr<Effect>(new Effect(std::move(state))), {}};
 }

@@ -108,6 +108,15 @@ struct GlassMap {
       0; ///< depth of the glass nearest to the light, same size, layers and convention as the shadow map
 };
 
+/// Transmittance of smoke and hair from the light on, as Avsm::curves() gives it (tyndall/avsm.h), through the same
+/// views as the shadow map, each in a layer's place.
+struct AvsmCurves {
+  std::uint32_t texture = 0; ///< GL_TEXTURE_2D_ARRAY, RGBA32UI (packed) or RGBA32F; 0: nothing dims the light
+  int nodes = 8;             ///< of a curve
+  bool packed = true;
+  std::uint64_t version = 0; ///< of what the texture holds, as SceneDepth::version
+};
+
 /// The plane where the medium begins, for a directional light: light is attenuated from there on.
 struct MediumBoundary {
   bool enabled = false;
@@ -131,6 +140,7 @@ struct Light {
   MediumBoundary boundary; ///< directional
   ShadowMap shadow;
   GlassMap glass;
+  AvsmCurves curves;
 };
 
 /// Phase functions, normalised to 1 over the sphere, in 1/sr. theta is the angle between the light's travel direction

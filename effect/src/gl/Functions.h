@@ -139,6 +139,14 @@ using Uint64 = std::uint64_t;
   X(void, ViewportIndexedf, (Uint index, Float x, Float y, Float width, Float height), Viewports)                      \
   X(void, BlendFuncSeparatei, (Uint index, Enum srcRgb, Enum dstRgb, Enum srcAlpha, Enum dstAlpha), Blending)          \
   X(void, BlendEquationSeparatei, (Uint index, Enum rgb, Enum alpha), Blending)                                        \
+  X(void, DispatchCompute, (Uint x, Uint y, Uint z), None)                                                             \
+  X(void, MemoryBarrier, (Bitfield barriers), None)                                                                    \
+  X(void, BindImageTexture,                                                                                            \
+    (Uint unit, Uint texture, Int level, Boolean layered, Int layer, Enum access, Enum format), Images)                \
+  X(void, TexStorage3D, (Enum target, Sizei levels, Enum format, Sizei width, Sizei height, Sizei depth), None)        \
+  X(void, BufferSubData, (Enum target, Intptr offset, Sizeiptr size, const void* data), None)                          \
+  X(void, ClearBufferSubData,                                                                                          \
+    (Enum target, Enum internal, Intptr offset, Sizeiptr size, Enum format, Enum type, const void* data), None)        \
   X(void, PushDebugGroup, (Enum source, Uint id, Sizei length, const Char* message), None)                             \
   X(void, PopDebugGroup, (), None)
 

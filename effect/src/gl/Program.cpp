@@ -66,8 +66,9 @@ constexpr Sampler kSamplers[] = {
 };
 constexpr std::array<const char*, 3> kBlocks = {"FrameBlock", "LightBlock", "EpipolarBlock"};
 
-std::string prologue(const Definitions& definitions) {
-  std::string text = "#version 330 core\n#define UNIFORM_BLOCK(name) layout(std140) uniform name\n";
+std::string prologue(Enum kind, const Definitions& definitions) {
+  std::string text = kind == COMPUTE_SHADER ? "#version 430 core\n" : "#version 330 core\n";
+  text += "#define UNIFORM_BLOCK(name) layout(std140) uniform name\n";
   for (const auto& [name, value] : definitions)
     text += "#define " + name + " " + std::to_string(value) + "\n";
   return text;
@@ -90,7 +91,8 @@ std::string keyOf(const std::string& fragment, const Definitions& definitions, c
 
 // Those that the shaders mention: variants that differ in no other are one program.
 Definitions mentioned(const Definitions& definitions, const std::string& fragment, const std::string& vertex) {
-  const std::string text = std::string(shaderSource(fragment.c_str())) + shaderSource(vertex.c_str());
+  std::string text = shaderSource(fragment.c_str());
+  if (!vertex.empty()) text += shaderSource(vertex.c_str());
   Definitions result;
   for (const auto& definition : definitions)
     if (text.find(definition.first) != std::string::npos) result.push_back(definition);
@@ -121,7 +123,7 @@ Uint ProgramCache::use(const std::string& fragment, const Definitions& definitio
 }
 
 Uint ProgramCache::compile(Enum kind, const std::string& file, const Definitions& definitions) {
-  const std::string text = prologue(definitions) + shaderSource(file.c_str());
+  const std::string text = prologue(kind, definitions) + shaderSource(file.c_str());
   const Char* pointer = text.c_str();
   const Uint shader = gl_.CreateShader(kind);
   gl_.ShaderSource(shader, 1, &pointer, nullptr);
@@ -138,18 +140,24 @@ Uint ProgramCache::compile(Enum kind, const std::string& file, const Definitions
   return 0;
 }
 
-Uint ProgramCache::link(const std::string& fragment, const Definitions& definitions, const std::string& vertexFile) {
-  const Uint vertex = compile(VERTEX_SHADER, vertexFile, definitions);
-  const Uint pixel = vertex ? compile(FRAGMENT_SHADER, fragment, definitions) : 0;
-  if (pixel == 0) {
-    if (vertex) gl_.DeleteShader(vertex);
-    return 0;
+Uint ProgramCache::link(const std::string& file, const Definitions& definitions, const std::string& vertexFile) {
+  if (vertexFile.empty()) {
+    const Uint compute = compile(COMPUTE_SHADER, file, definitions);
+    return compute ? linkShaders({compute}) : 0;
   }
+  const Uint vertex = compile(VERTEX_SHADER, vertexFile, definitions);
+  const Uint pixel = vertex ? compile(FRAGMENT_SHADER, file, definitions) : 0;
+  if (pixel != 0) return linkShaders({vertex, pixel});
+  if (vertex) gl_.DeleteShader(vertex);
+  return 0;
+}
+
+Uint ProgramCache::linkShaders(const std::vector<Uint>& shaders) {
   const Uint program = gl_.CreateProgram();
-  for (const Uint shader : {vertex, pixel})
+  for (const Uint shader : shaders)
     gl_.AttachShader(program, shader);
   gl_.LinkProgram(program);
-  for (const Uint shader : {vertex, pixel}) {
+  for (const Uint shader : shaders) {
     gl_.DetachShader(program, shader);
     gl_.DeleteShader(shader);
   }

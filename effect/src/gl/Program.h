@@ -1,5 +1,5 @@
-// A linked program: a vertex shader (full-screen unless named) with one fragment shader of glsl/passes and a set of
-// definitions.
+// A linked program: a vertex shader (full-screen unless named) with one fragment shader of glsl/passes, or a compute
+// shader, and a set of definitions.
 #pragma once
 
 #include "gl/Functions.h"
@@ -99,13 +99,16 @@ public:
   /// The program of a fragment shader ("passes/exact.frag"); 0 if it does not build, then error() has the log. Leaves
   /// the program in use.
   Uint use(const std::string& fragment, const Definitions& definitions, const std::string& vertex = kFullScreen);
+  /// The same of a compute shader ("passes/avsmSort.comp"), which needs OpenGL 4.3.
+  Uint useCompute(const std::string& file, const Definitions& definitions) { return use(file, definitions, {}); }
 
   const std::string& error() const { return error_; }
   int size() const { return static_cast<int>(programs_.size()); }
 
 private:
   Uint compile(Enum kind, const std::string& file, const Definitions& definitions);
-  Uint link(const std::string& fragment, const Definitions& definitions, const std::string& vertex);
+  Uint link(const std::string& file, const Definitions& definitions, const std::string& vertex);
+  Uint linkShaders(const std::vector<Uint>& shaders);
 
   const Functions& gl_;
   std::map<std::string, Program> programs_; ///< by what their shaders mention

@@ -49,4 +49,25 @@ bool isReversed(const glm::dmat4& depthClipFromWorld, const glm::dvec3& directio
   return slope.z * clip.w - clip.z * slope.w < 0; // the sign of d(z / w)
 }
 
+DepthPlane linearDepth(const Light& light, int view) {
+  const glm::dmat4 depthClipFromWorld =
+      depthFromClip(light.shadow.clipDepth) * toGlm(light.shadow.views[static_cast<std::size_t>(view)].clipFromWorld);
+  const glm::dmat4 worldFromClip = glm::inverse(depthClipFromWorld);
+  const glm::dvec4 centre = worldFromClip * glm::dvec4(0, 0, 0.5, 1);
+  const glm::dvec3 travel = light.kind == LightKind::Directional
+                                ? toGlm(light.direction)
+                                : glm::dvec3(centre) / centre.w - toGlm(light.position);
+  const bool reversed = isReversed(depthClipFromWorld, travel);
+  const glm::dvec4 near = worldFromClip * glm::dvec4(0, 0, reversed ? 1 : 0, 1);
+  const glm::dvec4 far = worldFromClip * glm::dvec4(0, 0, reversed ? 0 : 1, 1);
+  // A perspective far plane is as many times farther as its homogeneous weight is smaller: no more than what floats
+  // tell apart.
+  if (std::abs(far.w) <= 1e-9 * std::abs(near.w)) return {};
+  const glm::dmat4 rows = glm::transpose(depthClipFromWorld);
+  const glm::dvec3 along(rows[isOrthographic(depthClipFromWorld) ? 2 : 3]);
+  const glm::dvec3 from = glm::dvec3(near) / near.w;
+  const glm::dvec3 slope = along / glm::dot(along, glm::dvec3(far) / far.w - from);
+  return {glm::dvec4(slope, -glm::dot(slope, from)), true};
+}
+
 } // namespace tyndall::optics

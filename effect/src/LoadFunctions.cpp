@@ -1,0 +1,26 @@
+#include "LoadFunctions.h"
+
+#include "gl/Enums.h"
+
+namespace tyndall {
+
+Status loadFunctions(gl::Functions& gl, GlLoader loader, int version, const std::string& what) {
+  const std::string missing = gl.load(loader);
+  if (!gl.GetString || !gl.GetString(gl::VERSION))
+    return {StatusCode::NoContext, "no GL context is current on this thread"};
+  const std::string text = reinterpret_cast<const char*>(gl.GetString(gl::VERSION));
+  if (!gl.GetIntegerv) return {StatusCode::ContextTooOld, "the loader knows no " + missing};
+  gl::Int major = 0, minor = 0;
+  gl.GetIntegerv(gl::MAJOR_VERSION, &major); // an error, and 0, before OpenGL 3.0
+  gl.GetIntegerv(gl::MINOR_VERSION, &minor);
+  gl.version = 10 * major + minor;
+  const std::string needed = "OpenGL " + std::to_string(version / 10) + "." + std::to_string(version % 10);
+  if (gl.version < version || text.rfind("OpenGL ES", 0) == 0)
+    return {StatusCode::ContextTooOld,
+            "the context is \"" + text + "\": " + needed + " core or later is needed" + what};
+  if (!missing.empty())
+    return {StatusCode::ContextTooOld, "the context is \"" + text + "\" but the loader knows no " + missing};
+  return {};
+}
+
+} // namespace tyndall

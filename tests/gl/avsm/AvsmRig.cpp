@@ -1,0 +1,218 @@
+#include "AvsmRig.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+namespace tests {
+
+namespace {
+
+using host::gl;
+
+constexpr GLuint kInput = 6, kOutput = 7;
+
+// A compute program, for one test.
+class ComputeProgram {
+public:
+  explicit ComputeProgram(const std::string& source) : name_(gl().CreateProgram()) {
+    const GLuint shader = gl().CreateShader(GL_COMPUTE_SHADER);
+    const char* text = source.c_str();
+    gl().ShaderSource(shader, 1, &text, nullptr);
+    gl().CompileShader(shader);
+    char log[4096] = "";
+    gl().GetShaderInfoLog(shader, sizeof log, nullptr, log);
+    INFO(log);
+    GLint ok = 0;
+    gl().GetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    REQUIRE(ok);
+    gl().AttachShader(name_, shader);
+    gl().LinkProgram(name_);
+    gl().DeleteShader(shader);
+    gl().GetProgramiv(name_, GL_LINK_STATUS, &ok);
+    REQUIRE(ok);
+  }
+  ~ComputeProgram() {
+    gl().UseProgram(0);
+    gl().DeleteProgram(name_);
+  }
+  ComputeProgram(const ComputeProgram&) = delete;
+  ComputeProgram& operator=(const ComputeProgram&) = delete;
+  void run(std::size_t count) const {
+    gl().UseProgram(name_);
+    gl().DispatchCompute(static_cast<GLuint>((count + 63) / 64), 1, 1);
+    gl().MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+  }
+
+private:
+  GLuint name_;
+};
+
+void fillBuffer(const host::GlBuffer& buffer, GLuint binding, std::size_t bytes, const void* data) {
+  gl().BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
+  gl().BufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_DYNAMIC_COPY);
+}
+
+void unbind() {
+  for (const GLuint binding : {kInput, kOutput})
+    gl().BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, 0);
+}
+
+constexpr const char* kCapture = R"(
+layout(local_size_x = 64) in;
+struct Segment { ivec4 texel; vec4 values; };
+layout(std430, binding = 6) readonly buffer Input { Segment segments[]; };
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= uint(segments.length())) return;
+  tyndallCapture(segments[i].texel.xyz, segments[i].values.x, segments[i].values.y, segments[i].values.z);
+}
+)";
+
+} // namespace
+
+bool hasAvsm() {
+  GLint major = 0, minor = 0;
+  testContext();
+  gl().GetIntegerv(GL_MAJOR_VERSION, &major);
+  gl().GetIntegerv(GL_MINOR_VERSION, &minor);
+  if (10 * major + minor >= 43) return true;
+  WARN("skipped: the context is older than OpenGL 4.3");
+  return false;
+}
+
+double curveAt(const Curve& curve, double depth, bool exponential) {
+  glm::dvec2 before(0, 1);
+  for (const glm::dvec2& node : curve) {
+    if (depth < node.x) {
+      if (&node == &curve.front()) return 1;
+      const double share = (depth - before.x) / (node.x - before.x);
+      return exponential ? before.y * std::pow(std::max(node.y, 1e-7) / before.y, share)
+                         : before.y + (node.y - before.y) * share;
+    }
+    before = node;
+  }
+  return before.y;
+}
+
+double curveError(const Curve& curve, const std::vector<reference::Segment>& segments) {
+  constexpr int kDepths = 2000;
+  double sum = 0;
+  for (int i = 0; i < kDepths; ++i) {
+    const double depth = (i + 0.5) / kDepths;
+    sum += std::abs(curveAt(curve, depth) - reference::transmittanceAt(segments, depth));
+  }
+  return sum / kDepths;
+}
+
+AvsmRig::AvsmRig(tyndall::AvsmConfig config) : config_(std::move(config)) {
+  config_.loader = testContext().loader();
+  tyndall::AvsmResult result = tyndall::Avsm::create(config_);
+  INFO(result.status.message);
+  REQUIRE(result.avsm);
+  avsm_ = std::move(result.avsm);
+}
+
+void AvsmRig::capture(const std::vector<Captured>& segments) {
+  struct Input {
+    glm::ivec4 texel;
+    glm::vec4 values;
+  };
+  std::vector<Input> inputs;
+  inputs.reserve(segments.size());
+  for (const Captured& s : segments)
+    inputs.push_back({glm::ivec4(s.texel, 0), glm::vec4(s.entry, s.exit, s.transmittance, 0)});
+  const tyndall::Status began = avsm_->begin(2);
+  INFO(began.message);
+  REQUIRE(began);
+  if (!inputs.empty()) {
+    const ComputeProgram program(
+        std::string("#version 430 core\n#define TYNDALL_LISTS_BINDING 2\n#define TYNDALL_SEGMENTS_BINDING 3\n") +
+        tyndall::avsmCaptureSource() + kCapture);
+    const host::GlBuffer buffer = host::makeBuffer();
+    fillBuffer(buffer, kInput, inputs.size() * sizeof(Input), inputs.data());
+    program.run(inputs.size());
+    unbind();
+  }
+  const tyndall::Status resolved = avsm_->resolve();
+  INFO(resolved.message);
+  REQUIRE(resolved);
+}
+
+Curve AvsmRig::curve(const glm::ivec3& texel) const {
+  const tyndall::AvsmCurves curves = avsm_->curves();
+  REQUIRE(curves.texture != 0);
+  const int perTexel = config_.packed ? 4 : 2, layers = config_.nodes / perTexel;
+  const auto size = static_cast<std::size_t>(config_.size);
+  std::vector<std::uint32_t> bits(4 * size * size * static_cast<std::size_t>(layers * config_.layers));
+  gl().BindTexture(GL_TEXTURE_2D_ARRAY, curves.texture);
+  if (config_.packed)
+    gl().GetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, bits.data());
+  else
+    gl().GetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA, GL_FLOAT, bits.data());
+  Curve curve;
+  for (int layer = texel.z * layers; layer < (texel.z + 1) * layers; ++layer) {
+    const std::uint32_t* at =
+        &bits[4 * ((static_cast<std::size_t>(layer) * size + static_cast<std::size_t>(texel.y)) * size +
+                   static_cast<std::size_t>(texel.x))];
+    if (config_.packed) {
+      for (int i = 0; i < 4; ++i)
+        curve.emplace_back((at[i] >> 16) / 65535.0, (at[i] & 0xFFFFU) / 65535.0);
+    } else {
+      const auto* values = reinterpret_cast<const float*>(at);
+      curve.emplace_back(values[0], values[1]);
+      curve.emplace_back(values[2], values[3]);
+    }
+  }
+  return curve;
+}
+
+std::vector<float> AvsmRig::run(const std::string& expression, const std::vector<glm::vec4>& inputs,
+                                bool exponential) const {
+  const tyndall::AvsmCurves curves = avsm_->curves();
+  REQUIRE(curves.texture != 0);
+  const ComputeProgram program("#version 430 core\n#define TYNDALL_CURVE_NODES " + std::to_string(curves.nodes) +
+                               "\n#define TYNDALL_CURVE_PACKED " + (curves.packed ? "1" : "0") +
+                               "\n#define TYNDALL_CURVE_EXPONENTIAL " + (exponential ? "1\n" : "0\n") +
+                               tyndall::avsmLookupSource() + R"(
+layout(local_size_x = 64) in;
+layout(binding = 0) uniform TyndallCurves curves;
+layout(std430, binding = 6) readonly buffer Input { vec4 inputs[]; };
+layout(std430, binding = 7) writeonly buffer Output { float results[]; };
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= uint(inputs.length())) return;
+  vec4 v = inputs[i];
+  results[i] = )" + expression +
+                               ";\n}\n");
+  gl().ActiveTexture(GL_TEXTURE0);
+  gl().BindTexture(GL_TEXTURE_2D_ARRAY, curves.texture);
+  const host::GlBuffer input = host::makeBuffer(), output = host::makeBuffer();
+  std::vector<float> results(inputs.size());
+  fillBuffer(input, kInput, inputs.size() * sizeof(glm::vec4), inputs.data());
+  fillBuffer(output, kOutput, results.size() * sizeof(float), nullptr);
+  program.run(inputs.size());
+  gl().BindBuffer(GL_SHADER_STORAGE_BUFFER, output.name());
+  gl().GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(results.size() * sizeof(float)),
+                        results.data());
+  unbind();
+  return results;
+}
+
+std::vector<float> AvsmRig::lookUp(const std::vector<glm::ivec3>& texels, const std::vector<float>& depths,
+                                   bool exponential) const {
+  std::vector<glm::vec4> inputs;
+  for (std::size_t i = 0; i < depths.size(); ++i)
+    inputs.emplace_back(glm::vec3(texels[i]), depths[i]);
+  return run("tyndallTransmittance(curves, ivec3(v.xyz), v.w)", inputs, exponential);
+}
+
+std::vector<float> AvsmRig::lookUpBilinear(const std::vector<glm::vec2>& places, int layer,
+                                           const std::vector<float>& depths) const {
+  std::vector<glm::vec4> inputs;
+  for (std::size_t i = 0; i < depths.size(); ++i)
+    inputs.emplace_back(places[i], layer, depths[i]);
+  return run("tyndallTransmittanceBilinear(curves, v.xy, int(v.z), v.w)", inputs, false);
+}
+
+} // namespace tests

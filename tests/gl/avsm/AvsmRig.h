@@ -1,0 +1,57 @@
+// Segments into an Avsm of the test context, and its curves back.
+#pragma once
+
+#include "gl/Objects.h"
+#include "reference/Curves.h"
+#include "support/TestContext.h"
+
+#include <glm/glm.hpp>
+#include <tyndall/avsm.h>
+#include <vector>
+
+namespace tests {
+
+/// True if the test context is new enough; else says that the test is skipped.
+bool hasAvsm();
+
+/// A segment as it is given to tyndallCapture().
+struct Captured {
+  glm::ivec3 texel{0};
+  float entry = 0, exit = 0, transmittance = 1;
+};
+
+/// Depth and transmittance of the nodes of a texel's curve.
+using Curve = std::vector<glm::dvec2>;
+
+/// The curve at a depth, by lines; `exponential`: as avsmLookup does it if told.
+double curveAt(const Curve& curve, double depth, bool exponential = false);
+
+/// Mean absolute difference between a curve and the segments it is made of, over [0, 1] in depth.
+double curveError(const Curve& curve, const std::vector<reference::Segment>& segments);
+
+class AvsmRig {
+public:
+  explicit AvsmRig(tyndall::AvsmConfig config = {});
+
+  tyndall::Avsm& avsm() { return *avsm_; }
+
+  /// begin(), a compute shader that captures these, in an order of the driver's, and resolve().
+  void capture(const std::vector<Captured>& segments);
+
+  /// The curve of a texel, from the texture.
+  Curve curve(const glm::ivec3& texel) const;
+
+  /// avsmLookup in a shader: texel by texel, or bilinearly at a place of the map.
+  std::vector<float> lookUp(const std::vector<glm::ivec3>& texels, const std::vector<float>& depths,
+                            bool exponential = false) const;
+  std::vector<float> lookUpBilinear(const std::vector<glm::vec2>& places, int layer,
+                                    const std::vector<float>& depths) const;
+
+private:
+  std::vector<float> run(const std::string& expression, const std::vector<glm::vec4>& inputs, bool exponential) const;
+
+  tyndall::AvsmConfig config_;
+  std::unique_ptr<tyndall::Avsm> avsm_;
+};
+
+} // namespace tests

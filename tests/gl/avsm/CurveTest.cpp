@@ -1,0 +1,139 @@
+// Curves of adaptive volumetric shadow maps against the segments they are made of.
+#include "AvsmRig.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <random>
+
+using namespace tyndall;
+using tests::AvsmRig;
+using tests::Captured;
+using tests::Curve;
+
+namespace {
+
+AvsmConfig configOf(CurveReduction reduction, int nodes, bool packed, int size = 4) {
+  AvsmConfig config;
+  config.size = size;
+  config.nodes = nodes;
+  config.packed = packed;
+  config.reduction = reduction;
+  return config;
+}
+
+constexpr CurveReduction kReductions[] = {CurveReduction::WholeCurve, CurveReduction::Sorted, CurveReduction::InOrder};
+
+// Columns of smoke: puffs of some thickness, thin each, in clusters along the ray.
+std::vector<reference::Segment> smoke(int seed, double low = 0, double high = 1) {
+  std::mt19937 random(static_cast<unsigned>(seed));
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<reference::Segment> segments;
+  for (int column = 0; column < 3; ++column) {
+    const double middle = 0.15 + 0.3 * column + 0.1 * uniform(random);
+    for (int i = 0; i < 20; ++i) {
+      const double at = middle + 0.16 * (uniform(random) - 0.5), half = 0.01 + 0.03 * uniform(random);
+      const auto place = [&](double d) { return low + (high - low) * std::clamp(d, 0.0, 1.0); };
+      segments.push_back({place(at - half), place(at + half), 1 - 0.08 * uniform(random)});
+    }
+  }
+  return segments;
+}
+
+std::vector<Captured> atTexel(const std::vector<reference::Segment>& segments, const glm::ivec3& texel) {
+  std::vector<Captured> all;
+  for (const reference::Segment& s : segments)
+    all.push_back(
+        {texel, static_cast<float>(s.entry), static_cast<float>(s.exit), static_cast<float>(s.transmittance)});
+  return all;
+}
+
+void checkShape(const Curve& curve) {
+  double depth = 0, passed = 1;
+  for (const glm::dvec2& node : curve) {
+    CHECK(node.x >= depth);
+    CHECK(node.y <= passed + 1e-6);
+    CHECK(node.y >= 0);
+    CHECK(node.x <= 1);
+    depth = node.x;
+    passed = node.y;
+  }
+}
+
+} // namespace
+
+TEST_CASE("avsm: a segment's curve falls between its ends, and at once where they are one") {
+  if (!tests::hasAvsm()) return;
+  for (const CurveReduction reduction : kReductions)
+    for (const bool packed : {false, true}) {
+      AvsmRig rig(configOf(reduction, 8, packed));
+      rig.capture({{{1, 2, 0}, 0.25F, 0.5F, 0.8F}, {{3, 0, 0}, 0.5F, 0.5F, 0.25F}, {{2, 2, 0}, 0.125F, 0.126F, 0}});
+      CAPTURE(static_cast<int>(reduction), packed);
+      const std::vector<glm::ivec3> texels = {{1, 2, 0}, {1, 2, 0}, {1, 2, 0}, {1, 2, 0}, {3, 0, 0},
+                                              {3, 0, 0}, {2, 2, 0}, {2, 2, 0}, {0, 0, 0}};
+      const std::vector<float> depths = {0.1F, 0.25F, 0.375F, 0.75F, 0.49F, 0.51F, 0.12F, 0.2F, 1};
+      const std::vector<double> expected = {1, 1, std::sqrt(0.8), 0.8, 1, 0.25, 1, 0, 1};
+      const std::vector<float> found = rig.lookUp(texels, depths);
+      const std::vector<float> exponential = rig.lookUp(texels, depths, true);
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        CAPTURE(i);
+        CHECK(found[i] == Approx(expected[i]).margin(i == 2 ? 0.008 : packed ? 2e-4 : 1e-6));
+        CHECK(exponential[i] == Approx(expected[i]).margin(packed ? 4e-4 : 2e-3));
+      }
+      const AvsmStatistics statistics = rig.avsm().statistics();
+      CHECK(statistics.segments == 3);
+      CHECK(statistics.lost == 0);
+    }
+}
+
+TEST_CASE("avsm: segments that overlap multiply, in any order") {
+  if (!tests::hasAvsm()) return;
+  const std::vector<reference::Segment> segments = {{0.2, 0.6, 0.7}, {0.3, 0.5, 0.8}, {0.5, 0.5, 0.9}};
+  for (const CurveReduction reduction : kReductions) {
+    AvsmRig rig(configOf(reduction, 16, false));
+    std::vector<Captured> forward = atTexel(segments, {0, 0, 0}), all = forward;
+    std::reverse(forward.begin(), forward.end());
+    for (Captured s : forward) {
+      s.texel = {1, 0, 0};
+      all.push_back(s);
+    }
+    rig.capture(all);
+    CAPTURE(static_cast<int>(reduction));
+    for (const glm::ivec3& texel : {glm::ivec3(0), glm::ivec3(1, 0, 0)}) {
+      const Curve curve = rig.curve(texel);
+      checkShape(curve);
+      CHECK(tests::curveError(curve, segments) < (reduction == CurveReduction::WholeCurve ? 1e-3 : 6e-3));
+      CHECK(tests::curveAt(curve, 0.99) == Approx(0.7 * 0.8 * 0.9).epsilon(1e-5));
+    }
+  }
+}
+
+TEST_CASE("avsm: curves fall, stay in [0, 1], keep both ends and get closer with more nodes") {
+  if (!tests::hasAvsm()) return;
+  constexpr int kTexels = 8;
+  for (const CurveReduction reduction : kReductions)
+    for (const bool packed : {false, true}) {
+      double last = 1;
+      for (const int nodes : {4, 8, 12, 16}) {
+        AvsmRig rig(configOf(reduction, nodes, packed, kTexels));
+        std::vector<Captured> all;
+        for (int i = 0; i < kTexels * kTexels; ++i)
+          for (const Captured& s : atTexel(smoke(i), {i % kTexels, i / kTexels, 0}))
+            all.push_back(s);
+        rig.capture(all); // the memory grows
+        rig.capture(all);
+        REQUIRE(rig.avsm().statistics().lost == 0);
+        double sum = 0;
+        for (int i = 0; i < kTexels * kTexels; ++i) {
+          const Curve curve = rig.curve({i % kTexels, i / kTexels, 0});
+          const std::vector<reference::Segment> segments = smoke(i);
+          checkShape(curve);
+          CHECK(curve.front().y == 1);
+          CHECK(curve.back().y == Approx(reference::transmittanceAt(segments, 1)).margin(packed ? 1e-4 : 2e-6));
+          sum += tests::curveError(curve, segments) / (kTexels * kTexels);
+        }
+        CAPTURE(static_cast<int>(reduction), nodes, packed, sum);
+        CHECK(sum < last);
+        last = sum;
+      }
+    }
+}
