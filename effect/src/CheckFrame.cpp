@@ -131,6 +131,20 @@ Status checkSpot(const std::string& field, const Light& light) {
   return {};
 }
 
+Status checkCurves(const std::string& field, const Light& light) {
+  const AvsmCurves& curves = light.curves;
+  if (curves.texture == 0) return {};
+  if (light.shadow.texture == 0)
+    return invalid(field + "shadow.texture", "0", "curves need a shadow map, whose views they share");
+  if (curves.nodes < 4 || curves.nodes > 16 || curves.nodes % 4 != 0)
+    return invalid(field + "curves.nodes", std::to_string(curves.nodes), "must be 4, 8, 12 or 16");
+  for (std::size_t i = 0; i < light.shadow.views.size(); ++i)
+    if (!optics::linearDepth(light, static_cast<int>(i)).exists)
+      return invalid(field + "shadow.views[" + std::to_string(i) + "].clipFromWorld", "without a far plane",
+                     "curves need one that is not at infinity");
+  return {};
+}
+
 Status checkLight(const std::string& field, const Light& light) {
   if (light.kind < LightKind::Directional || light.kind > LightKind::Spot)
     return invalid(field + "kind", std::to_string(static_cast<int>(light.kind)), "must be one of the enumerators");
@@ -152,7 +166,7 @@ Status checkLight(const std::string& field, const Light& light) {
                    "a glass map needs both its colour and its depth");
   if (light.glass.colour != 0 && light.shadow.texture == 0)
     return invalid(field + "shadow.texture", "0", "a glass map needs a shadow map, whose views it shares");
-  return {};
+  return checkCurves(field, light);
 }
 
 Status checkView(const Frame& frame) {

@@ -12,6 +12,7 @@ struct FrameTextures {
   struct Shadow {
     int width = 0;
     int height = 0;
+    int curvesSize = 0; ///< texels per side of Light::curves, 0 without
   };
   int depthSamples = 1;
   float maxRadiance = 0;       ///< largest finite value that all written formats hold

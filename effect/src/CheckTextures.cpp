@@ -10,7 +10,7 @@ namespace {
 
 using namespace gl; // GL's enumerants
 
-enum class Use { Colour, Depth, Tint };
+enum class Use { Colour, Depth, Tint, Curves };
 
 struct Info {
   Int width = 0;
@@ -117,6 +117,8 @@ Status inspect(const Functions& gl, const std::string& field, Uint name, Enum ta
     return invalid(field, name, "must have a float colour format (RGBA16F, RGBA32F, R11F_G11F_B10F, RGB16F, RGB32F)");
   if (use == Use::Tint && !isTint(info.format))
     return invalid(field, name, "must have an RGB or RGBA format of 8 bits or floats");
+  if (use == Use::Curves && static_cast<Enum>(info.format) != RGBA32UI)
+    return invalid(field, name, "must be what Avsm::curves() gave: RGBA32UI");
   if (use == Use::Depth && gl.version >= 43) {
     Int mode = DEPTH_COMPONENT;
     gl.GetTexParameteriv(target, DEPTH_STENCIL_TEXTURE_MODE, &mode);
@@ -154,6 +156,21 @@ Status checkDistinct(const Frame& frame) {
   return {};
 }
 
+Status checkCurves(const Functions& gl, const std::string& field, const Light& light, int& size) {
+  Info info;
+  const Uint name = light.curves.texture;
+  if (Status s = inspect(gl, field, name, TEXTURE_2D_ARRAY, Use::Curves, info); !s) return s;
+  const auto views = static_cast<int>(light.shadow.views.size());
+  const int layers = views * light.curves.nodes / (light.curves.packed ? 4 : 2);
+  if (info.width != info.height) return invalid(field, name, "must be as high as it is wide");
+  if (info.layers < layers)
+    return invalid(field, name,
+                   "has " + std::to_string(info.layers) + " layers: " + std::to_string(views) + " views of " +
+                       std::to_string(light.curves.nodes) + " nodes need " + std::to_string(layers));
+  size = info.width;
+  return {};
+}
+
 Status checkShadow(const Functions& gl, const std::string& field, const Light& light, FrameTextures::Shadow& shadow) {
   if (light.shadow.texture == 0) return {};
   const Enum target = light.shadow.array ? TEXTURE_2D_ARRAY : TEXTURE_2D;
@@ -165,6 +182,8 @@ Status checkShadow(const Functions& gl, const std::string& field, const Light& l
                                             std::to_string(light.shadow.views[i].layer) + ": the shadow map has " +
                                             std::to_string(map.layers) + " layers"};
   shadow = {map.width, map.height};
+  if (light.curves.texture != 0)
+    if (Status s = checkCurves(gl, field + "curves.texture", light, shadow.curvesSize); !s) return s;
   if (light.glass.colour == 0) return {};
   Info colour, depth;
   if (Status s = inspect(gl, field + "glass.colour", light.glass.colour, target, Use::Tint, colour); !s) return s;

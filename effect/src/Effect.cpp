@@ -242,6 +242,7 @@ passes::exact::Variant variantOf(const Frame& frame, const Light* light, bool di
   if (light->shadow.texture == 0) return variant;
   variant.shadowViews = light->shadow.views.size() > 1 ? 2 : 1;
   variant.shadowArray = light->shadow.array;
+  variant.curves = light->curves.texture != 0;
   variant.bilinear = frame.settings.shadowFilter == ShadowFilter::Bilinear;
   return variant;
 }
@@ -268,7 +269,7 @@ std::vector<Effect::State::DrawnLight> Effect::State::lightsToDraw(const Frame& 
     const FrameTextures::Shadow& map = textures.shadows[i];
     if (drawn[i])
       lights.push_back({i, nameOf(frame, i), settings[i],
-                        optics::lightBlock(light, frame.camera, map.width, map.height),
+                        optics::lightBlock(light, frame.camera, map.width, map.height, map.curvesSize),
                         variantOf(frame, &light, direct)});
   }
   return lights;

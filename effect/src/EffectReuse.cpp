@@ -45,7 +45,8 @@ Status Effect::State::renderReusing(const Frame& frame, const FrameTextures& tex
   FrameKey key{block, frame.settings, {}, {}};
   for (const DrawnLight& light : lights) {
     key.drawn.push_back(light.index);
-    key.lights.push_back({light.block, light.settings, textures.shadows[light.index], light.variant});
+    key.lights.push_back(
+        {light.block, light.settings, textures.shadows[light.index], light.variant, frame.lights[light.index].curves});
   }
   Redraw picture = view.plan(key, frame);
   const bool all = picture == Redraw::All;

@@ -35,12 +35,16 @@ auto fieldsOf(const passes::exact::Variant& v) {
                   v.composite);
 }
 
-bool same(const LightKey& a, const LightKey& b) {
-  return same(a.block, b.block) && fieldsOf(a.settings) == fieldsOf(b.settings) && a.map.width == b.map.width &&
-         a.map.height == b.map.height && fieldsOf(a.variant) == fieldsOf(b.variant);
+bool isStated(std::uint64_t version, std::uint64_t last) { return version != 0 && version == last; }
+
+bool same(const AvsmCurves& a, const AvsmCurves& b) {
+  return a.texture == b.texture && (a.texture == 0 || isStated(a.version, b.version));
 }
 
-bool isStated(std::uint64_t version, std::uint64_t last) { return version != 0 && version == last; }
+bool same(const LightKey& a, const LightKey& b) {
+  return same(a.curves, b.curves) && same(a.block, b.block) && fieldsOf(a.settings) == fieldsOf(b.settings) &&
+         a.map.width == b.map.width && a.map.height == b.map.height && fieldsOf(a.variant) == fieldsOf(b.variant);
+}
 
 } // namespace
 

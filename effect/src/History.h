@@ -20,6 +20,7 @@ struct LightKey {
   Settings settings;
   FrameTextures::Shadow map;
   passes::exact::Variant variant;
+  AvsmCurves curves;
 };
 
 /// One light of a view.

@@ -52,6 +52,8 @@ constexpr Row kRows[] = {
     {"row means", kUnorm4, kUnorm2, "nodes x rows", "the same: averages; with glass, means"},
     {"row moments", kUnorm4, kUnorm4, "nodes x rows", "the same with glass: first moments"},
     {"pair tree", kRg32, kUnorm2, "nodes x rows", "the same over two neighbouring rows, for rays between them"},
+    {"curve cells", kRgba32, kRgba32, "cells x rows", "smoke and hair along each slice"},
+    {"curve tree", kRgba32, kRgba32, "nodes x rows", "a tree over them"},
     {"low rank rays", kRgba32, kRgba32, "64 x terms", "low rank: factors of camera rays"},
     {"low rank lights", kRgba32, kRgba32, "1 or slices x 128 terms", "the same of light rays, and their prefix sums"},
     {"tint red", kRgba32, kRgba32, "texels / 4, 16, ... x rows terms / 4", "low rank with glass: terms times tints"},

@@ -34,6 +34,8 @@ enum class Target {
   RowMeans,
   RowMoments,
   PairTree,
+  CurveCells,
+  CurveTree,
   LowRankRays,
   LowRankLights,
   TintRed,

@@ -32,23 +32,22 @@ void padCurve() {
   }
 }
 
+layout(rgba32ui, binding = 0) uniform writeonly uimage2DArray curveImage;
+
 #if PACKED
-layout(rgba32ui, binding = 0) uniform writeonly uimage2DArray curves;
+const int kTexels = NODES / 4;
 
 uint packedNode(vec2 node) {
   uvec2 bits = uvec2(round(clamp(node, 0.0, 1.0) * 65535.0));
   return bits.x << 16u | bits.y;
 }
-
-void storeCurve(ivec3 texel) {
-  for (int i = 0; i < NODES / 4; ++i)
-    imageStore(curves, ivec3(texel.xy, texel.z * (NODES / 4) + i), uvec4(packedNode(curve[4 * i]), packedNode(curve[4 * i + 1]), packedNode(curve[4 * i + 2]), packedNode(curve[4 * i + 3])));
-}
+uvec4 storedNodes(int i) { return uvec4(packedNode(curve[4 * i]), packedNode(curve[4 * i + 1]), packedNode(curve[4 * i + 2]), packedNode(curve[4 * i + 3])); }
 #else
-layout(rgba32f, binding = 0) uniform writeonly image2DArray curves;
+const int kTexels = NODES / 2;
+
+uvec4 storedNodes(int i) { return floatBitsToUint(vec4(curve[2 * i], curve[2 * i + 1])); }
+#endif
 
 void storeCurve(ivec3 texel) {
-  for (int i = 0; i < NODES / 2; ++i)
-    imageStore(curves, ivec3(texel.xy, texel.z * (NODES / 2) + i), vec4(curve[2 * i], curve[2 * i + 1]));
+  for (int i = 0; i < kTexels; ++i) imageStore(curveImage, ivec3(texel.xy, texel.z * kTexels + i), storedNodes(i));
 }
-#endif

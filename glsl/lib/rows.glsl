@@ -15,6 +15,9 @@ int rowOf(int view, int slice) { return slice; }
 // Origin and step of a slice's row in a view's map.
 vec4 rowLine(int view, int slice) { return texelFetch(sliceTable, ivec2(slice, 2 + 2 * view), 0); }
 
+// Its main axis.
+bool isAlongX(vec4 row) { return abs(row.z) >= abs(row.w); }
+
 // Last texel of the row.
 int rowLast(int view, int slice) { return max(int(texelFetch(sliceTable, ivec2(slice, 3 + 2 * view), 0).x), 1) - 1; }
 

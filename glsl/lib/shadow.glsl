@@ -2,7 +2,7 @@
 // texels and depth, a + s b in homogeneous texel space: along the line the receiver's depth is linear in the line's own
 // parameter u, only s needs the rational map.
 //
-// SHADOW_VIEWS: 0 no shadow map, 1 one view, 2 several. SHADOW_ARRAY, FILTER_BILINEAR, GLASS: 0 or 1.
+// SHADOW_VIEWS: 0 no shadow map, 1 one view, 2 several. SHADOW_ARRAY, FILTER_BILINEAR, GLASS, CURVES: 0 or 1.
 
 #if GLASS
 #define Visibility vec3 // fraction of the light that passes, per channel
@@ -26,6 +26,9 @@ struct ViewSegment {
   vec3 p0, p1;
 #if FADES
   vec2 share; // of the light at s0 and s1 that the view decides on; linear between
+#endif
+#if CURVES
+  vec2 curveDepth; // linear depth at s0 and s1
 #endif
 };
 
@@ -58,11 +61,22 @@ vec2 viewInterval(int view, Ray ray, float s0, float s1, bool beforeNear) {
 ViewSegment viewSegment(int view, Ray ray, float s0, float s1, vec2 share) {
   vec4 a = texelFromCamera[view] * vec4(ray.origin, 1.0), b = texelFromCamera[view] * vec4(ray.direction, 0.0);
   vec4 q0 = a + s0 * b, q1 = a + s1 * b;
+  ViewSegment segment;
+  segment.view = view;
+  segment.s0 = s0;
+  segment.s1 = s1;
+  segment.w0 = q0.w;
+  segment.w1 = q1.w;
+  segment.p0 = q0.xyz / q0.w;
+  segment.p1 = q1.xyz / q1.w;
 #if FADES
-  return ViewSegment(view, s0, s1, q0.w, q1.w, q0.xyz / q0.w, q1.xyz / q1.w, share);
-#else
-  return ViewSegment(view, s0, s1, q0.w, q1.w, q0.xyz / q0.w, q1.xyz / q1.w);
+  segment.share = share;
 #endif
+#if CURVES
+  segment.curveDepth.x = dot(curveDepth[view].xyz, ray.origin + s0 * ray.direction) + curveDepth[view].w;
+  segment.curveDepth.y = dot(curveDepth[view].xyz, ray.origin + s1 * ray.direction) + curveDepth[view].w;
+#endif
+  return segment;
 }
 
 // Distance along the camera ray at the line parameter u: u = w1 f / (w0 (1 - f) + w1 f) solved for f = (s - s0)/(s1 - s0).
@@ -81,11 +95,11 @@ vec3 langevin(vec3 x) { return vec3(langevin(x.x), langevin(x.y), langevin(x.z))
 
 #if LIGHT_KIND == 0
 // Light of a span where the visibility has a mean and a first moment (from -1 to 1 over the span), as that of a line. With
-// fades spans may be long; else the airlight falls along a line, too.
+// fades or curves spans may be long; else the airlight falls along a line, too.
 Light weightedLight(Airlight light, float s0, float s1, Visibility mean, Visibility moment) {
   bool attenuated = light.path + 0.5 * (s0 + s1) * light.pathSlope > 0.0;
   Spectrum fall = SPECTRUM(extinction) * ((attenuated ? 1.0 + light.pathSlope : 1.0) * (s1 - s0));
-#if FADES
+#if FADES || CURVES
   Spectrum towards = 3.0 * langevin(0.5 * abs(fall)) * sign(fall);
 #else
   Spectrum towards = 0.5 * fall;
@@ -101,9 +115,8 @@ Light weightedLight(Airlight light, float s0, float s1, Visibility mean, Visibil
 }
 #endif
 
-// The same from line parameter u0 to u1 of a segment, times the view's share there.
-Light spanLight(Airlight light, ViewSegment segment, float u0, float u1, Visibility mean, Visibility moment) {
-  float s0 = distanceAt(segment, u0), s1 = distanceAt(segment, u1);
+// The same times the view's share there.
+Light sharedLight(Airlight light, ViewSegment segment, float s0, float s1, Visibility mean, Visibility moment) {
 #if FADES
   // Visibility and share as lines a + b t on [-1, 1]; the mean of t squared is a third.
   float scale = (segment.share.y - segment.share.x) / max(segment.s1 - segment.s0, 1e-30);
@@ -113,6 +126,25 @@ Light spanLight(Airlight light, ViewSegment segment, float u0, float u1, Visibil
   mean = shared;
 #endif
   return weightedLight(light, s0, s1, mean, moment);
+}
+
+// The line parameter at a distance along the camera ray: the inverse of distanceAt.
+float parameterAt(ViewSegment segment, float s) {
+  float f = (s - segment.s0) / max(segment.s1 - segment.s0, 1e-30);
+  return f >= 1.0 ? 1.0 : segment.w1 * f / (segment.w0 * (1.0 - f) + segment.w1 * f);
+}
+
+#if CURVES
+#include "lib/curves.glsl"
+#endif
+
+// The same from line parameter u0 to u1 of a segment, behind the smoke and hair that dim the light.
+Light spanLight(Airlight light, ViewSegment segment, float u0, float u1, Visibility mean, Visibility moment) {
+#if CURVES
+  return curvedLight(light, segment, u0, u1, mean, moment);
+#else
+  return sharedLight(light, segment, distanceAt(segment, u0), distanceAt(segment, u1), mean, moment);
+#endif
 }
 
 // A line through the cells of a view's map, from u = 0 to 1. A cell is a texel (nearest) or the square between four texel
@@ -296,12 +328,6 @@ const int kPiecesPerCell = 2 + GLASS;
 
 #endif
 
-// The line parameter at a distance along the camera ray: the inverse of distanceAt.
-float parameterAt(ViewSegment segment, float s) {
-  float f = (s - segment.s0) / max(segment.s1 - segment.s0, 1e-30);
-  return f >= 1.0 ? 1.0 : segment.w1 * f / (segment.w0 * (1.0 - f) + segment.w1 * f);
-}
-
 // Takes the cell if the visibility is `current` all through it.
 bool takeCell(Line line, int view, inout Walk walk, Visibility current) {
 #ifdef SKIPS_NODES
@@ -370,7 +396,7 @@ Light segmentLight(Airlight light, ViewSegment segment) {
         stepCell(line, walk, uEnd, depth);
       }
     }
-#if FADES
+#if FADES || CURVES
     sum += spanLight(light, segment, begin, end, weight, Visibility(0.0));
 #else
     sum += Light(weight) * Light(airlight(light, distanceAt(segment, begin), distanceAt(segment, end)));

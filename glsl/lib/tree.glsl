@@ -55,6 +55,9 @@ void startRow(Airlight light, ViewSegment segment, int slice, out RowLine line, 
   line.row = rowOf(segment.view, slice);
   line.origin = row.xy;
   line.step = row.zw;
+#if CURVES && defined(ROW_CURVES)
+  curveRow = CurveRow(isAlongX(row), (isAlongX(row) ? row.z : row.w) < 0.0, line.row);
+#endif
   int highest = rowLast(segment.view, slice);
   float scale = 1.0 / dot(row.zw, row.zw);
   line.begin = dot(segment.p0.xy - row.xy, row.zw) * scale;

@@ -2,6 +2,7 @@
 // packed, four to a fragment. Two neighbours among them, the sides of a break, say, share one ray: its light up to one
 // sample's end is part of that up to the next. Reads slice table, sampleEnds, marks, extraOffsets, row textures. Writes extra: slices x
 // samples / 4, four samples in RGBA32F (monochrome) or in three RGBA16F, one a channel; added up over the draws.
+#define ROW_CURVES
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"

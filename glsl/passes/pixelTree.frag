@@ -1,5 +1,6 @@
 // Pixel tree: every pixel, or every pixel that unwarp left, through the tree of its nearest slice (Chen 2011); one light,
 // the shadow views of a draw. Reads the scene depth, slice table and row textures; LOW_RANK 1: lowRankRays, lowRankLights. Writes as exact.frag does.
+#define ROW_CURVES
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"

@@ -7,24 +7,22 @@
 #endif
 
 #if TYNDALL_CURVE_PACKED
-#define TyndallCurves usampler2DArray
 const int kTyndallNodesPerTexel = 4;
 #else
-#define TyndallCurves sampler2DArray
 const int kTyndallNodesPerTexel = 2;
 #endif
 const int kTyndallCurveLayers = TYNDALL_CURVE_NODES / kTyndallNodesPerTexel;
 
 // Nodes of one texel of the curves' texture: depths and transmittances, nearest first.
 #if TYNDALL_CURVE_PACKED
-void tyndallNodes(TyndallCurves curves, ivec3 texel, out vec4 depths, out vec4 passed) {
+void tyndallNodes(usampler2DArray curves, ivec3 texel, out vec4 depths, out vec4 passed) {
   uvec4 nodes = texelFetch(curves, texel, 0);
   depths = vec4(nodes >> 16u) * (1.0 / 65535.0);
   passed = vec4(nodes & 0xFFFFu) * (1.0 / 65535.0);
 }
 #else
-void tyndallNodes(TyndallCurves curves, ivec3 texel, out vec2 depths, out vec2 passed) {
-  vec4 nodes = texelFetch(curves, texel, 0);
+void tyndallNodes(usampler2DArray curves, ivec3 texel, out vec2 depths, out vec2 passed) {
+  vec4 nodes = uintBitsToFloat(texelFetch(curves, texel, 0));
   depths = nodes.xz;
   passed = nodes.yw;
 }
@@ -41,7 +39,7 @@ float tyndallBetween(vec2 a, vec2 b, float depth) {
 
 // Transmittance at a depth, from 0 at the near to 1 at the far plane, of one texel of the map: x, y and layer. Only the texel of nodes that
 // ends behind the depth is searched.
-float tyndallTransmittance(TyndallCurves curves, ivec3 texel, float depth) {
+float tyndallTransmittance(usampler2DArray curves, ivec3 texel, float depth) {
   vec2 before = vec2(0.0, 1.0);
   for (int i = 0; i < kTyndallCurveLayers; ++i) {
 #if TYNDALL_CURVE_PACKED
@@ -74,7 +72,7 @@ float tyndallTransmittance(TyndallCurves curves, ivec3 texel, float depth) {
 }
 
 // The same, of the four texels around a place weighted bilinearly. place: x and y from 0 to 1 over the map.
-float tyndallTransmittanceBilinear(TyndallCurves curves, vec2 place, int layer, float depth) {
+float tyndallTransmittanceBilinear(usampler2DArray curves, vec2 place, int layer, float depth) {
   ivec2 size = textureSize(curves, 0).xy;
   vec2 at = place * vec2(size) - 0.5, f = fract(at);
   ivec2 low = clamp(ivec2(floor(at)), ivec2(0), size - 1), high = clamp(ivec2(floor(at)) + 1, ivec2(0), size - 1);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace reference {
 
@@ -13,6 +14,73 @@ double transmittanceAt(const std::vector<Segment>& segments, double depth) {
     passed *= std::pow(s.transmittance, share);
   }
   return passed;
+}
+
+namespace {
+
+glm::dmat4 matrixOf(const tyndall::Mat4& m) {
+  glm::dmat4 result;
+  for (int i = 0; i < 16; ++i)
+    result[i / 4][i % 4] = m[static_cast<std::size_t>(i)];
+  return result;
+}
+
+double onCurve(const std::vector<glm::dvec2>& curve, double depth) {
+  glm::dvec2 before(0, 1);
+  for (const glm::dvec2& node : curve) {
+    if (depth < node.x)
+      return &node == &curve.front() ? 1 : before.y + (node.y - before.y) * (depth - before.x) / (node.x - before.x);
+    before = node;
+  }
+  return before.y;
+}
+
+// Place in a view, from 0 to 1 in x and y, and depth from the near to the far plane, linear in the world; none if
+// outside or before the near plane.
+std::optional<glm::dvec3> placeIn(const glm::dmat4& clipFromWorld, bool zeroToOne, bool bounded,
+                                  const glm::dvec3& point) {
+  const glm::dvec4 clip = clipFromWorld * glm::dvec4(point, 1);
+  const double low = zeroToOne ? 0 : -1;
+  if (!(clip.w > 0) || std::max(std::abs(clip.x), std::abs(clip.y)) > clip.w) return {};
+  const double z = clip.z / clip.w;
+  if (z < low || (bounded && z > 1)) return {};
+  // Between the points of the planes on this very light ray.
+  const glm::dmat4 inverse = glm::inverse(clipFromWorld);
+  const auto unproject = [&](double depth) {
+    const glm::dvec4 p = inverse * glm::dvec4(clip.x / clip.w, clip.y / clip.w, depth, 1);
+    return glm::dvec3(p) / p.w;
+  };
+  const glm::dvec3 near = unproject(low), far = unproject(1);
+  const double depth = glm::dot(point - near, far - near) / glm::dot(far - near, far - near);
+  return glm::dvec3(0.5 * clip.x / clip.w + 0.5, 0.5 * clip.y / clip.w + 0.5, depth);
+}
+
+} // namespace
+
+double dimming(const CurveMap& map, const tyndall::Light& light, const glm::dvec3& point, const glm::dvec3& direction) {
+  const std::size_t count = light.shadow.views.size();
+  const bool zeroToOne = light.shadow.clipDepth == tyndall::ClipDepth::ZeroToOne;
+  for (std::size_t v = 0; v < count; ++v) {
+    const glm::dmat4 clipFromWorld = matrixOf(light.shadow.views[v].clipFromWorld);
+    const bool bounded = light.kind == tyndall::LightKind::Directional && v + 1 < count;
+    const auto place = placeIn(clipFromWorld, zeroToOne, bounded, point);
+    if (!place) continue;
+    const glm::dvec4 a = clipFromWorld * glm::dvec4(point, 1),
+                     b = clipFromWorld * glm::dvec4(point + 1e-4 * direction, 1);
+    const glm::dvec2 moved = glm::abs(glm::dvec2(b) / b.w - glm::dvec2(a) / a.w);
+    const int main = moved.x >= moved.y ? 0 : 1;
+    const auto curveAt = [&](int across) {
+      glm::ivec2 at;
+      at[main] = std::clamp(static_cast<int>((*place)[main] * map.size), 0, map.size - 1);
+      at[1 - main] = std::clamp(across, 0, map.size - 1);
+      const auto size = static_cast<std::size_t>(map.size);
+      return onCurve(map.curves[(v * size + static_cast<std::size_t>(at.y)) * size + static_cast<std::size_t>(at.x)],
+                     place->z);
+    };
+    const double at = (*place)[1 - main] * map.size - 0.5, low = std::floor(at);
+    return curveAt(static_cast<int>(low)) * (1 - (at - low)) + curveAt(static_cast<int>(low) + 1) * (at - low);
+  }
+  return 1;
 }
 
 } // namespace reference

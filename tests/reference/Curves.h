@@ -1,6 +1,8 @@
 // Transmittance of segments along one light ray in double precision (DESIGN 1, A; Salvi et al. 2013, eq. 1).
 #pragma once
 
+#include <glm/glm.hpp>
+#include <tyndall/tyndall.h>
 #include <vector>
 
 namespace reference {
@@ -14,5 +16,17 @@ struct Segment {
 
 /// The product of what all segments let through up to a depth; a step counts at its own depth.
 double transmittanceAt(const std::vector<Segment>& segments, double depth);
+
+/// Curves of a light as read back from GL: depth and transmittance of the nodes, texel by texel (row 0 at the bottom),
+/// view by view. Lines between nodes; 1 before the first, the last one's value behind it.
+struct CurveMap {
+  int size = 0; ///< texels per side; 0: nothing dims the light
+  std::vector<std::vector<glm::dvec2>> curves;
+};
+
+/// What passes to a point that the first view that holds it decides on; 1 in none, and before near planes. Cells are
+/// texels along the main axis that `direction`, a movement of the point, has in the map; across it the two nearest
+/// texels are weighted linearly.
+double dimming(const CurveMap& map, const tyndall::Light& light, const glm::dvec3& point, const glm::dvec3& direction);
 
 } // namespace reference

@@ -24,6 +24,7 @@ void requireConsistent(const MapScene& scene) {
   };
   requireSize("depth", scene.depth.size(), count(scene.width, scene.height, scene.samples));
   if (!scene.shadows.empty()) requireSize("shadows", scene.shadows.size(), scene.lights.size());
+  if (!scene.curves.empty()) requireSize("curves", scene.curves.size(), scene.lights.size());
   for (std::size_t i = 0; i < scene.shadows.size(); ++i) {
     const ShadowImage& image = scene.shadows[i];
     const std::size_t texels = count(image.width, image.height, image.layers);
@@ -71,9 +72,22 @@ private:
     PixelAnswer answer{Rgb(0), transmittance(scene_.medium, end)};
     for (std::size_t i = 0; i < lights_.size(); ++i) {
       const Airlight airlight(scene_.medium, scene_.lights[i], ray);
-      answer.inscatter += shadowedInscatter(lights_[i], airlight, ray, 0, end);
+      answer.inscatter += lightOf(i, airlight, ray, end);
     }
     return answer;
+  }
+
+  Rgb lightOf(std::size_t i, const Airlight& airlight, const Ray& ray, double end) const {
+    if (scene_.curves.empty() || scene_.curves[i].size == 0)
+      return shadowedInscatter(lights_[i], airlight, ray, 0, end);
+    constexpr int kSteps = 2000;
+    Rgb sum(0);
+    for (int k = 0; k < kSteps; ++k) {
+      const double from = end * k / kSteps, to = end * (k + 1) / kSteps;
+      sum += shadowedInscatter(lights_[i], airlight, ray, from, to) *
+             dimming(scene_.curves[i], scene_.lights[i], ray.at(0.5 * (from + to)), ray.direction);
+    }
+    return sum;
   }
 
   const MapScene& scene_;

@@ -13,6 +13,7 @@
 // Depth directions are read off the matrices.
 #pragma once
 
+#include "Curves.h"
 #include "Ray.h"
 
 #include <tyndall/tyndall.h>
@@ -33,6 +34,7 @@ struct MapScene {
   tyndall::Camera camera;
   std::vector<tyndall::Light> lights; ///< texture names are not looked at, shadow.views and shadow.clipDepth are
   std::vector<ShadowImage> shadows;   ///< one a light, or none at all
+  std::vector<CurveMap> curves;       ///< one a light, or none at all: in steps, not in closed form
   tyndall::Medium medium;
   tyndall::ShadowFilter filter = tyndall::ShadowFilter::Nearest;
   int width = 0;

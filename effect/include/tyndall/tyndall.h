@@ -111,7 +111,7 @@ struct GlassMap {
 /// Transmittance of smoke and hair from the light on, as Avsm::curves() gives it (tyndall/avsm.h), through the same
 /// views as the shadow map, each in a layer's place.
 struct AvsmCurves {
-  std::uint32_t texture = 0; ///< GL_TEXTURE_2D_ARRAY, RGBA32UI (packed) or RGBA32F; 0: nothing dims the light
+  std::uint32_t texture = 0; ///< GL_TEXTURE_2D_ARRAY, RGBA32UI; 0: nothing dims the light
   int nodes = 8;             ///< of a curve
   bool packed = true;
   std::uint64_t version = 0; ///< of what the texture holds, as SceneDepth::version

@@ -80,7 +80,6 @@ struct Avsm::State {
     return std::uint64_t{16} * static_cast<std::uint64_t>(config.size) * static_cast<std::uint64_t>(config.size) *
            static_cast<std::uint64_t>(curveLayers());
   }
-  gl::Enum format() const { return config.packed ? gl::RGBA32UI : gl::RGBA32F; }
   gl::Definitions curveDefinitions() const { return {{"NODES", config.nodes}, {"PACKED", config.packed ? 1 : 0}}; }
 };
 
@@ -157,7 +156,7 @@ Status Avsm::State::makeObjects() {
   gl.BindTexture(gl::TEXTURE_2D_ARRAY, curves.name());
   while (gl.GetError() != gl::NO_ERROR) {
   }
-  gl.TexStorage3D(gl::TEXTURE_2D_ARRAY, 1, format(), config.size, config.size, curveLayers());
+  gl.TexStorage3D(gl::TEXTURE_2D_ARRAY, 1, gl::RGBA32UI, config.size, config.size, curveLayers());
   if (gl.GetError() != gl::NO_ERROR)
     return {StatusCode::OutOfMemory, "GL could not allocate " + std::to_string(curveBytes()) + " bytes for curves"};
   for (const gl::Enum filter : {gl::TEXTURE_MIN_FILTER, gl::TEXTURE_MAG_FILTER})
@@ -195,7 +194,7 @@ Status Avsm::State::makeOrder() {
 
 Status Avsm::State::makeCurves() {
   lists->bind(0, true);
-  gl.BindImageTexture(0, curves.name(), 0, 1, 0, gl::WRITE_ONLY, format());
+  gl.BindImageTexture(0, curves.name(), 0, 1, 0, gl::WRITE_ONLY, gl::RGBA32UI);
   if (config.reduction != CurveReduction::InOrder)
     if (Status s = makeOrder(); !s) return s;
   const bool whole = config.reduction == CurveReduction::WholeCurve;

@@ -34,6 +34,9 @@ enum class Unit : Uint {
   RowMeans,
   RowMoments,
   ChangedSegments,
+  Curves,
+  CurveCells,
+  CurveTree,
   ExtraGreen = Inscatter, ///< no pass reads both
   ExtraBlue = Transmittance,
   ExtraOffsets = RowNodes,
@@ -62,7 +65,7 @@ enum class Unit : Uint {
   ViewImage = Marched, ///< debug views run after the passes that read these, or read neither
   ViewExact = Extra,
   ViewMean = EpipolarInscatter,
-  Upload = ChangedSegments + 1, ///< where textures are made and filled, so that no other unit's texture is disturbed
+  Upload = CurveTree + 1, ///< where textures are made and filled, so that no other unit's texture is disturbed
 };
 
 inline constexpr const char* kFullScreen = "passes/fullscreen.vert";

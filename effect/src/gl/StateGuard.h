@@ -10,7 +10,7 @@
 
 namespace tyndall::gl {
 
-inline constexpr int kTextureUnits = 20;   ///< units 0..19 (gl::Unit) are ours during a render
+inline constexpr int kTextureUnits = 23;   ///< units 0..22 (gl::Unit) are ours during a render
 inline constexpr int kUniformBindings = 3; ///< uniform buffer bindings 0..2 likewise
 
 class StateGuard {

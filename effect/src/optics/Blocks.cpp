@@ -137,7 +137,8 @@ glm::vec4 boundaryOf(const MediumBoundary& boundary, const glm::dvec3& direction
 
 } // namespace
 
-blocks::LightBlock lightBlock(const Light& light, const Camera& camera, int shadowWidth, int shadowHeight) {
+blocks::LightBlock lightBlock(const Light& light, const Camera& camera, int shadowWidth, int shadowHeight,
+                              int curvesSize) {
   const glm::dvec3 origin = cameraOrigin(camera);
   const glm::dvec3 direction =
       light.kind == LightKind::Point ? glm::dvec3(0, -1, 0) : glm::normalize(toGlm(light.direction));
@@ -169,7 +170,14 @@ blocks::LightBlock lightBlock(const Light& light, const Camera& camera, int shad
     const bool open = light.kind != LightKind::Directional || i == count - 1;
     block.viewDepth[i] = glm::vec4(reversed ? -1 : 0, reversed ? 0 : 1, reversed ? -1 : 1, open ? 1 : 0);
     block.viewLayer[i] = glm::ivec4(view.layer, 0, 0, 0);
+    if (curvesSize == 0) continue;
+    const glm::dvec4 depth = linearDepth(light, i).coefficients;
+    block.curveDepth[i] = glm::vec4(glm::dvec3(depth), glm::dot(depth, glm::dvec4(origin, 1)));
   }
+  const int perTexel = light.curves.packed ? 4 : 2;
+  if (curvesSize > 0)
+    block.curveCounts =
+        glm::ivec4(curvesSize, light.curves.nodes, light.curves.packed ? 1 : 0, light.curves.nodes / perTexel);
   return block;
 }
 

@@ -18,8 +18,9 @@ glm::dvec3 cameraOrigin(const Camera& camera);
 
 blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes);
 
-/// shadowWidth, shadowHeight: texels, 0 without a shadow map.
-blocks::LightBlock lightBlock(const Light& light, const Camera& camera, int shadowWidth, int shadowHeight);
+/// shadowWidth, shadowHeight, curvesSize: texels, 0 without a shadow map or curves.
+blocks::LightBlock lightBlock(const Light& light, const Camera& camera, int shadowWidth, int shadowHeight,
+                              int curvesSize = 0);
 
 /// Extinction sigma_t = scattering of all constituents + absorption, 1/world unit.
 glm::dvec3 extinctionOf(const Medium& medium);

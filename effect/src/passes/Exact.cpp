@@ -8,6 +8,7 @@ gl::Definitions definitionsOf(const Variant& v) {
           {"SHADOW_ARRAY", v.shadowArray},
           {"FILTER_BILINEAR", v.bilinear},
           {"GLASS", v.glass},
+          {"CURVES", v.curves},
           {"MONOCHROME", v.monochrome},
           {"DEPTH_MULTISAMPLED", v.multisampled},
           {"COMPOSITE", v.composite}};
@@ -24,16 +25,17 @@ std::vector<Variant> allVariants() {
         v.monochrome = monochrome;
         v.lightKind = 3;
         v.shadowViews = 0;
-        v.shadowArray = v.bilinear = v.glass = false;
+        v.shadowArray = v.bilinear = v.glass = v.curves = false;
         all.push_back(v);
         for (v.lightKind = 0; v.lightKind < 3; ++v.lightKind) {
           v.shadowViews = 0;
-          v.shadowArray = v.bilinear = v.glass = false;
+          v.shadowArray = v.bilinear = v.glass = v.curves = false;
           all.push_back(v);
-          for (int bits = 0; bits < 8; ++bits) {
+          for (int bits = 0; bits < 16; ++bits) {
             v.shadowArray = (bits & 1) != 0;
             v.bilinear = (bits & 2) != 0;
             v.glass = (bits & 4) != 0;
+            v.curves = (bits & 8) != 0;
             for (v.shadowViews = 1; v.shadowViews <= (v.lightKind != 2 ? 2 : 1); ++v.shadowViews)
               all.push_back(v);
           }
@@ -53,6 +55,7 @@ bool run(const PassContext& context, const In& in) {
       bindTexture(context, gl::Unit::GlassColour, target, in.light->glass.colour);
       bindTexture(context, gl::Unit::GlassDepth, target, in.light->glass.depth);
     }
+    if (in.variant.curves) bindTexture(context, gl::Unit::Curves, gl::TEXTURE_2D_ARRAY, in.light->curves.texture);
   }
   setBlend(context, in.blend);
   return drawFullScreen(context, "passes/exact.frag", definitionsOf(in.variant));

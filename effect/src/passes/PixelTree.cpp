@@ -29,9 +29,10 @@ gl::Definitions pixelsOf(const exact::Variant& variant, const Tables& tables) {
   return definitions;
 }
 
-// An orthographic camera's rays cross one light ray at different distances: they have no sums in common.
+// An orthographic camera's rays cross one light ray at different distances: they have no sums in common. Behind smoke
+// there are none.
 bool usesTintSums(const SliceContext& context) {
-  return context.inputs.variant.glass && context.slices.block.grid.w > 0 &&
+  return context.inputs.variant.glass && !context.inputs.variant.curves && context.slices.block.grid.w > 0 &&
          optics::frameBlock(*context.inputs.frame, {}).depthToT.z == 0;
 }
 

@@ -72,6 +72,7 @@ Status runDepths(SliceContext& context, const In& in, Out& out) {
 
 Status runTree(SliceContext& context, const In& in, Out& out) {
   if (context.views() == 0) return {};
+  if (Status s = curve_rows::run(context, out.curves); !s) return s;
   const int room = context.slices.rowTexels, drawn = context.slices.block.grid.z, levels = context.slices.block.grid.w;
   const gl::Definitions definitions = definitionsOf(context.inputs.variant, in.tintSums);
   if (levels == 0) {
@@ -152,6 +153,7 @@ std::vector<gl::Variant> variantsOf(const exact::Variant& variant) {
   const gl::Definitions definitions = definitionsOf(variant, false), depths = inStripsOfRows(definitions);
   add(inStrips("passes/rowDepths.frag", depths));
   if (hasShares(variant)) add(inStrips("passes/rowDepths.frag", hashing(depths)));
+  add(curve_rows::variantsOf(variant));
   add(inRows("passes/rowNodes.frag", definitions));
   add(inRows("passes/rowTree.frag", definitions));
   if (variant.glass) {
@@ -165,6 +167,7 @@ std::vector<gl::Variant> variantsOf(const exact::Variant& variant) {
 
 void bind(const SliceContext& context, const Out& rows) {
   context.bindMaps();
+  curve_rows::bind(context, rows.curves);
   if (rows.tree == 0) return;
   context.bind(gl::Unit::RowDepths, rows.depths);
   context.bind(gl::Unit::RowTree, rows.tree);

@@ -2,6 +2,7 @@
 // and 3.3; glsl/passes/rowDepths, rowNodes, rowTree, pairTree).
 #pragma once
 
+#include "passes/CurveRows.h"
 #include "passes/SliceContext.h"
 
 namespace tyndall::passes::rows {
@@ -19,9 +20,10 @@ struct Out {
   gl::Uint tree = 0;
   gl::Uint means = 0;
   gl::Uint moments = 0; ///< 0 without glass: beside the means
+  curve_rows::Out curves;
 };
 
-/// Depths, then the tree.
+/// Depths, then the tree, and what dims the light.
 Status run(SliceContext& context, const In& in, Out& out);
 Status runDepths(SliceContext& context, const In& in, Out& out);
 Status runTree(SliceContext& context, const In& in, Out& out);

@@ -54,6 +54,7 @@ void SliceContext::bindMaps() const {
   if (inputs.variant.shadowViews == 0) return;
   const gl::Enum target = inputs.variant.shadowArray ? gl::TEXTURE_2D_ARRAY : gl::TEXTURE_2D;
   bindTexture(pass, gl::Unit::ShadowMap, target, inputs.light->shadow.texture);
+  if (inputs.variant.curves) bindTexture(pass, gl::Unit::Curves, gl::TEXTURE_2D_ARRAY, inputs.light->curves.texture);
   if (!inputs.variant.glass) return;
   bindTexture(pass, gl::Unit::GlassColour, target, inputs.light->glass.colour);
   bindTexture(pass, gl::Unit::GlassDepth, target, inputs.light->glass.depth);
@@ -145,6 +146,8 @@ Targets& SliceContext::holderOf(Target which) const {
   case Target::RowTree:
   case Target::RowMeans:
   case Target::RowMoments:
+  case Target::CurveCells:
+  case Target::CurveTree:
     return draws() == 1 ? history->kept : targets;
   case Target::SliceTable:
   case Target::Marched:

@@ -139,32 +139,33 @@ void AvsmRig::capture(const std::vector<Captured>& segments) {
   REQUIRE(resolved);
 }
 
-Curve AvsmRig::curve(const glm::ivec3& texel) const {
+reference::CurveMap AvsmRig::map() const {
   const tyndall::AvsmCurves curves = avsm_->curves();
   REQUIRE(curves.texture != 0);
-  const int perTexel = config_.packed ? 4 : 2, layers = config_.nodes / perTexel;
-  const auto size = static_cast<std::size_t>(config_.size);
-  std::vector<std::uint32_t> bits(4 * size * size * static_cast<std::size_t>(layers * config_.layers));
+  const std::size_t perTexel = config_.packed ? 4 : 2, layers = static_cast<std::size_t>(config_.nodes) / perTexel;
+  const auto size = static_cast<std::size_t>(config_.size), texels = size * size;
+  std::vector<glm::uvec4> stored(texels * layers * static_cast<std::size_t>(config_.layers));
   gl().BindTexture(GL_TEXTURE_2D_ARRAY, curves.texture);
-  if (config_.packed)
-    gl().GetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, bits.data());
-  else
-    gl().GetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA, GL_FLOAT, bits.data());
-  Curve curve;
-  for (int layer = texel.z * layers; layer < (texel.z + 1) * layers; ++layer) {
-    const std::uint32_t* at =
-        &bits[4 * ((static_cast<std::size_t>(layer) * size + static_cast<std::size_t>(texel.y)) * size +
-                   static_cast<std::size_t>(texel.x))];
+  gl().GetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, stored.data());
+  reference::CurveMap map{config_.size, std::vector<Curve>(texels * static_cast<std::size_t>(config_.layers))};
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    const glm::uvec4 bits = stored[i];
+    Curve& curve = map.curves[i / (texels * layers) * texels + i % texels];
     if (config_.packed) {
-      for (int i = 0; i < 4; ++i)
-        curve.emplace_back((at[i] >> 16) / 65535.0, (at[i] & 0xFFFFU) / 65535.0);
+      for (int k = 0; k < 4; ++k)
+        curve.emplace_back((bits[k] >> 16) / 65535.0, (bits[k] & 0xFFFFU) / 65535.0);
     } else {
-      const auto* values = reinterpret_cast<const float*>(at);
-      curve.emplace_back(values[0], values[1]);
-      curve.emplace_back(values[2], values[3]);
+      const glm::dvec4 values(glm::uintBitsToFloat(bits));
+      curve.emplace_back(values.x, values.y);
+      curve.emplace_back(values.z, values.w);
     }
   }
-  return curve;
+  return map;
+}
+
+Curve AvsmRig::curve(const glm::ivec3& texel) const {
+  const int index = (texel.z * config_.size + texel.y) * config_.size + texel.x;
+  return map().curves[static_cast<std::size_t>(index)];
 }
 
 std::vector<float> AvsmRig::run(const std::string& expression, const std::vector<glm::vec4>& inputs,
@@ -176,7 +177,7 @@ std::vector<float> AvsmRig::run(const std::string& expression, const std::vector
                                "\n#define TYNDALL_CURVE_EXPONENTIAL " + (exponential ? "1\n" : "0\n") +
                                tyndall::avsmLookupSource() + R"(
 layout(local_size_x = 64) in;
-layout(binding = 0) uniform TyndallCurves curves;
+layout(binding = 0) uniform usampler2DArray curves;
 layout(std430, binding = 6) readonly buffer Input { vec4 inputs[]; };
 layout(std430, binding = 7) writeonly buffer Output { float results[]; };
 void main() {

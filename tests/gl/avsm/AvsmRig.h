@@ -41,6 +41,9 @@ public:
   /// The curve of a texel, from the texture.
   Curve curve(const glm::ivec3& texel) const;
 
+  /// All curves, for the reference.
+  reference::CurveMap map() const;
+
   /// avsmLookup in a shader: texel by texel, or bilinearly at a place of the map.
   std::vector<float> lookUp(const std::vector<glm::ivec3>& texels, const std::vector<float>& depths,
                             bool exponential = false) const;

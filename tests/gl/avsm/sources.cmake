@@ -2,4 +2,5 @@
 set(TYNDALL_GL_AVSM_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/AvsmRig.cpp
   ${CMAKE_CURRENT_LIST_DIR}/CaptureTest.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/CurveTest.cpp)
+  ${CMAKE_CURRENT_LIST_DIR}/CurveTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/ShaftTest.cpp)

@@ -273,6 +273,7 @@ reference::ImageAnswer SceneRig::reference() const {
   scene.camera = frame.camera;
   scene.lights = frame.lights;
   scene.shadows = images_;
+  scene.curves = curves;
   scene.medium = frame.medium;
   scene.filter = frame.settings.shadowFilter;
   scene.width = frame.width;

@@ -73,6 +73,9 @@ public:
   /// Reads the outputs of the last render.
   reference::ImageAnswer outputs() const;
 
+  /// Of each light, for the reference; the frame has their texture.
+  std::vector<reference::CurveMap> curves;
+
   /// The map-exact reference of the same frame.
   reference::ImageAnswer reference() const;
 

@@ -1,0 +1,206 @@
+// Light behind smoke and hair: the curves of an adaptive volumetric shadow map (DESIGN 1, A; Salvi 2013) along a camera ray. Cells are
+// texels of the map along the ray's main axis; across it the two nearest texels are weighted linearly. In a cell the
+// transmittance's mean and first moment stand for it, exact for its lines between nodes.
+//
+// ROW_CURVES: with the cells of the slice's row and a tree over them (curveCells.frag, curveTree.frag). All rays of the slice run along
+// it: what lies before the first segment, or behind the last, is taken whole.
+
+uniform usampler2DArray curves; // glsl/public/avsmLookup.glsl
+
+struct CurveNodes {
+  vec4 depths, passed; // nearest first; the last one again where a texel holds only two
+};
+
+CurveNodes curveNodes(ivec3 texel, int i) {
+  uvec4 stored = texelFetch(curves, ivec3(texel.xy, texel.z * curveCounts.w + i), 0);
+  if (curveCounts.z != 0) return CurveNodes(vec4(stored >> 16u) * (1.0 / 65535.0), vec4(stored & 0xFFFFu) * (1.0 / 65535.0));
+  vec4 nodes = uintBitsToFloat(stored);
+  return CurveNodes(nodes.xzzz, nodes.ywww);
+}
+
+// Where a curve begins to fall, where it ends, and what passes from there on.
+vec3 curveEnds(ivec3 texel) {
+  CurveNodes last = curveNodes(texel, curveCounts.w - 1);
+  return vec3(curveNodes(texel, 0).depths.x, last.depths.w, last.passed.w);
+}
+
+// Adds the part of the line from node a to node b (depth, transmittance) between two depths to an integral and a first moment.
+void addLine(vec2 a, vec2 b, float low, float high, inout vec2 sum) {
+  float from = clamp(a.x, low, high), to = clamp(b.x, low, high);
+  if (!(to > from)) return;
+  float slope = (b.y - a.y) / (b.x - a.x), halfLength = 0.5 * (high - low), middle = 0.5 * (low + high);
+  float va = a.y + slope * (from - a.x), vb = a.y + slope * (to - a.x);
+  float xa = (from - middle) / halfLength, xb = (to - middle) / halfLength;
+  sum += (to - from) * vec2(0.5 * (va + vb), (va * xa + (va + vb) * (xa + xb) + vb * xb) / 6.0);
+}
+
+// Mean transmittance between two depths, low < high, and its first moment (from -1 to 1).
+vec2 curveBetween(ivec3 texel, float low, float high) {
+  vec2 sum = vec2(0.0), before = vec2(-1e9, 1.0);
+  for (int i = 0; i < curveCounts.w && before.x < high; ++i) {
+    CurveNodes nodes = curveNodes(texel, i);
+    for (int k = 0; k < 4; ++k) {
+      vec2 node = vec2(nodes.depths[k], nodes.passed[k]);
+      addLine(before, node, low, high, sum);
+      before = node;
+    }
+  }
+  addLine(before, vec2(1e9, before.y), low, high, sum);
+  return sum / (high - low);
+}
+
+// A ray among the cells of a view's map: at u it is in cell begin + u extent, counted so that it never falls.
+struct CurveLine {
+  bool alongX, mirrored;
+  float begin, extent;
+  float across, acrossExtent;
+  int view;
+};
+
+CurveLine curveLine(ViewSegment segment, bool alongX, bool mirrored) {
+  vec2 scale = float(curveCounts.x) / vec2(viewCounts.zw), p = segment.p0.xy * scale, d = segment.p1.xy * scale - p;
+  if (!alongX) {
+    p = p.yx;
+    d = d.yx;
+  }
+  if (mirrored) {
+    p.x = float(curveCounts.x) - p.x;
+    d.x = -d.x;
+  }
+  return CurveLine(alongX, mirrored, p.x, max(d.x, 0.0), p.y, d.y, segment.view);
+}
+
+// The two texels of a cell beside a line, and the weight of the second.
+ivec3 cellTexel(bool alongX, bool mirrored, int view, int cell, int across) {
+  ivec2 at = clamp(ivec2(mirrored ? curveCounts.x - 1 - cell : cell, across), ivec2(0), ivec2(curveCounts.x - 1));
+  return ivec3(alongX ? at : at.yx, view);
+}
+
+// Ends of both texels' curves: where the first begins, where the last ends, what passes behind both.
+vec3 cellEnds(bool alongX, bool mirrored, int view, int cell, float across) {
+  float at = across - 0.5, low = floor(at);
+  vec3 a = curveEnds(cellTexel(alongX, mirrored, view, cell, int(low))), b = curveEnds(cellTexel(alongX, mirrored, view, cell, int(low) + 1));
+  return vec3(min(a.x, b.x), max(a.y, b.y), mix(a.z, b.z, at - low));
+}
+
+#ifndef CURVES_ALONE
+
+// A stretch between two parameters of the line over which the transmittance has a mean and a first moment.
+struct Dimmed {
+  float from, to;
+  vec2 passed;
+};
+
+float linearDepthAt(ViewSegment segment, float s) {
+  return mix(segment.curveDepth.x, segment.curveDepth.y, clamp((s - segment.s0) / max(segment.s1 - segment.s0, 1e-30), 0.0, 1.0));
+}
+
+#ifdef ROW_CURVES
+uniform sampler2D curveCells; // cells x rows: as cellEnds
+uniform sampler2D curveTree;  // nodes of 4, 16, ... cells behind one another x rows; w: the first moment of what passes
+
+// Of the row that rays run along (startRow).
+struct CurveRow {
+  bool alongX, mirrored;
+  int row;
+} curveRow;
+
+float evenStretch(Airlight light) { return evenLength(light, spread.y); }
+#else
+float evenStretch(Airlight light) { return evenLength(light, 0.05); }
+#endif
+
+// The transmittance of a cell from one parameter to another, depths likewise.
+vec2 cellPassed(CurveLine line, int cell, float u0, float u1, float depth0, float depth1) {
+  float at = line.across + 0.5 * (u0 + u1) * line.acrossExtent - 0.5, low = floor(at);
+  float nearer = min(depth0, depth1), farther = max(max(depth0, depth1), nearer + 1e-7); // a ray across the light stays at one depth
+  ivec3 a = cellTexel(line.alongX, line.mirrored, line.view, cell, int(low)), b = cellTexel(line.alongX, line.mirrored, line.view, cell, int(low) + 1);
+  vec2 passed = mix(curveBetween(a, nearer, farther), curveBetween(b, nearer, farther), at - low);
+  return vec2(passed.x, depth1 < depth0 ? -passed.y : passed.y);
+}
+
+// The next stretch from u on that is dimmed, up to `end`; from: where it begins, `end` if there is none.
+Dimmed nextDimmed(Airlight light, ViewSegment segment, CurveLine line, float u, float end) {
+  Dimmed found = Dimmed(end, end, vec2(1.0, 0.0));
+  int cells = curveCounts.x, cell = clamp(int(floor(line.begin + u * line.extent)), 0, cells - 1), level = 0, base = 0;
+  float even = evenStretch(light), s = distanceAt(segment, u), depth = linearDepthAt(segment, s);
+  bool walking = u < end;
+  for (int guard = 0; guard < 8 * cells && walking; ++guard) {
+    int node = cell >> (2 * level), next = (node + 1) << (2 * level);
+    bool last = next >= cells || line.extent == 0.0;
+    float to = last ? end : clamp((float(next) - line.begin) / line.extent, u, end);
+    if (!(to > u) && !last) { // rounding left the walk a step behind
+      cell = next;
+      level = base = 0;
+      continue;
+    }
+    float sTo = distanceAt(segment, to), depthTo = linearDepthAt(segment, sTo);
+#ifdef ROW_CURVES
+    vec4 ends = level == 0 ? vec4(texelFetch(curveCells, ivec2(node, curveRow.row), 0).rgb, 0.0) : texelFetch(curveTree, ivec2(base + node, curveRow.row), 0);
+#else
+    vec4 ends = vec4(cellEnds(line.alongX, line.mirrored, line.view, cell, line.across + 0.5 * (u + to) * line.acrossExtent), 0.0);
+#endif
+    bool clear = max(depth, depthTo) <= ends.x, behind = min(depth, depthTo) >= ends.y;
+    bool whole = level == 0 || (sTo - s <= even && (node << (2 * level)) == cell && float(cell) >= line.begin + u * line.extent - 1e-3 && to < end);
+    if (clear || (behind && ends.z == 1.0)) {
+      cell = next;
+      u = to;
+      s = sTo;
+      depth = depthTo;
+      walking = u < end && !last;
+#ifdef ROW_CURVES
+      bool up = (next & ((4 << (2 * level)) - 1)) == 0 && next < cells;
+      if (up) {
+        base += level == 0 ? 0 : (cells + (1 << (2 * level)) - 1) >> (2 * level);
+        ++level;
+      }
+#endif
+    } else if (behind && whole) {
+      found = Dimmed(u, to, vec2(ends.z, ends.w));
+      walking = false;
+    } else if (level > 0) {
+      --level;
+      base -= level == 0 ? 0 : (cells + (1 << (2 * level)) - 1) >> (2 * level);
+    } else {
+      // A line stands for the transmittance only where the airlight hardly changes; but at most 64 pieces of a ray along the light.
+      float piece = max(even, (segment.s1 - segment.s0) / 64.0), cut = clamp(parameterAt(segment, s + piece), u, to);
+      if (sTo - s > piece && cut > u) {
+        to = cut;
+        depthTo = linearDepthAt(segment, distanceAt(segment, to));
+      }
+      found = Dimmed(u, to, cellPassed(line, cell, u, to, depth, depthTo));
+      walking = false;
+    }
+  }
+  return found;
+}
+
+// Light of a span of a segment whose visibility is that of a line, behind what dims it.
+Light curvedLight(Airlight light, ViewSegment segment, float u0, float u1, Visibility mean, Visibility moment) {
+#ifdef ROW_CURVES
+  CurveLine line = curveLine(segment, curveRow.alongX, curveRow.mirrored);
+#else
+  vec2 d = (segment.p1.xy - segment.p0.xy) / vec2(viewCounts.zw);
+  bool alongX = abs(d.x) >= abs(d.y);
+  CurveLine line = curveLine(segment, alongX, (alongX ? d.x : d.y) < 0.0);
+#endif
+  float s0 = distanceAt(segment, u0), s1 = distanceAt(segment, u1), inverse = 1.0 / max(s1 - s0, 1e-30);
+  Light sum = Light(0.0);
+  float u = u0;
+  // A clear stretch, which is taken whole, and the dimmed one behind it.
+  for (int guard = 0; guard < 16384 && u < u1; ++guard) {
+    Dimmed next = nextDimmed(light, segment, line, u, u1);
+    for (int k = 0; k < 2; ++k) {
+      float sa = distanceAt(segment, k == 0 ? u : next.from), sb = distanceAt(segment, k == 0 ? next.from : next.to);
+      vec2 passed = k == 0 ? vec2(1.0, 0.0) : next.passed;
+      if (!(sb > sa) || passed.x <= 0.0) continue;
+      // Its part of the visibility's line, times the transmittance's: a mean of t squared is a third.
+      Visibility own = mean + 3.0 * moment * ((sa + sb - s0 - s1) * inverse), ownMoment = moment * ((sb - sa) * inverse);
+      sum += sharedLight(light, segment, sa, sb, own * passed.x + 3.0 * ownMoment * passed.y, own * passed.y + ownMoment * passed.x);
+    }
+    u = next.to > u ? next.to : u1;
+  }
+  return sum;
+}
+
+#endif

@@ -1,0 +1,213 @@
+// Shafts through smoke and hair (Light::curves) against the reference, and by every technique.
+#include "../effect/ShaftRig.h"
+#include "AvsmRig.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <glm/gtc/matrix_transform.hpp>
+#include <random>
+
+using namespace tyndall;
+
+namespace {
+
+constexpr int kSize = 32;
+
+// Puffs of smoke in every view, between two depths of its range.
+std::vector<tests::Captured> puffs(int views, unsigned seed, float low, float high) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> uniform(0, 1);
+  const float range = high - low;
+  std::vector<tests::Captured> all;
+  for (int view = 0; view < views; ++view)
+    for (int puff = 0; puff < 10; ++puff) {
+      const glm::vec2 middle(kSize * uniform(random), kSize * uniform(random));
+      const float radius = 3 + 5 * uniform(random), at = low + range * uniform(random);
+      const float thickness = range * (0.05F + 0.1F * uniform(random));
+      for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x) {
+          const float off = glm::length(glm::vec2(x, y) + 0.5F - middle) / radius;
+          if (off >= 1) continue;
+          const float half = thickness * std::sqrt(1 - off * off);
+          all.push_back({{x, y, view}, at - half, at + half, puff == 0 ? 0 : std::exp(-12 * half / range)});
+        }
+    }
+  return all;
+}
+
+double errorOf(const reference::Image& image, const reference::Image& truth) {
+  return tests::errorWhere(image, truth, [](int, int) { return true; });
+}
+
+struct Scene {
+  tests::ShaftRig rig;
+  std::unique_ptr<tests::AvsmRig> smoke;
+
+  explicit Scene(const Light& light, bool glass = false, bool packed = true) : rig(48, 32) {
+    rig.addLight(light, 128, glass);
+    AvsmConfig config;
+    config.size = kSize;
+    config.packed = packed;
+    config.layers = static_cast<int>(rig.scene.frame.lights[0].shadow.views.size());
+    smoke = std::make_unique<tests::AvsmRig>(config);
+    fill(3);
+  }
+
+  Light& light() { return rig.scene.frame.lights[0]; }
+
+  void fill(unsigned seed) {
+    const bool sun = light().kind == LightKind::Directional;
+    const auto all = puffs(static_cast<int>(light().shadow.views.size()), seed, sun ? 0.1F : 0.01F, sun ? 0.5F : 0.13F);
+    for (int i = 0; i < 2; ++i) // the memory grows
+      smoke->capture(all);
+    REQUIRE(smoke->avsm().statistics().lost == 0);
+    light().curves = smoke->avsm().curves();
+    rig.scene.curves = {smoke->map()};
+  }
+
+  reference::Image picture(Technique technique) {
+    rig.scene.frame.settings.technique = technique;
+    return rig.scene.render().inscatter;
+  }
+  reference::Image clear(Technique technique) {
+    const AvsmCurves curves = light().curves;
+    light().curves = {};
+    reference::Image image = picture(technique);
+    light().curves = curves;
+    return image;
+  }
+};
+
+constexpr LightKind kKinds[] = {LightKind::Directional, LightKind::Point, LightKind::Spot};
+constexpr Technique kFast[] = {Technique::Tree, Technique::Epipolar, Technique::LowRank};
+
+// The smoke counts, exact is the reference's picture, and the others are as near to exact as they are without smoke.
+void checkAll(Scene& scene) {
+  const reference::Image exact = scene.picture(Technique::Exact), clear = scene.clear(Technique::Exact);
+  CHECK(errorOf(clear, exact) > 0.02);
+  CHECK(errorOf(exact, scene.rig.scene.reference().inscatter) < 2e-3);
+  for (const Technique technique : kFast) {
+    const double without = errorOf(scene.clear(technique), clear), with = errorOf(scene.picture(technique), exact);
+    CAPTURE(static_cast<int>(technique), without, with);
+    CHECK(with < 1.2 * without + 0.005);
+  }
+}
+
+} // namespace
+
+TEST_CASE("avsm shafts: all lights, packed or not, with glass or without") {
+  if (!tests::hasAvsm()) return;
+  for (const LightKind kind : kKinds)
+    for (const bool glass : {false, true}) {
+      CAPTURE(static_cast<int>(kind), glass);
+      Scene scene(tests::shaftLight(kind), glass, !glass);
+      checkAll(scene);
+    }
+}
+
+TEST_CASE("avsm shafts: filtered shadows, cascades, coloured media and every setting of rows") {
+  if (!tests::hasAvsm()) return;
+  const std::vector<std::pair<const char*, std::function<void(Frame&)>>> changes = {
+      {"bilinear", [](Frame& f) { f.settings.shadowFilter = ShadowFilter::Bilinear; }},
+      {"no tree", [](Frame& f) { f.settings.minMaxTree = false; }},
+      {"no averages", [](Frame& f) { f.settings.averageThreshold = 0; }},
+      {"row step", [](Frame& f) { f.settings.rowStep = 2; }},
+      {"coloured",
+       [](Frame& f) {
+         f.medium.constituents = {{{0.02F, 0.05F, 0.09F}, Phase::Rayleigh, 0}};
+       }},
+      {"spread", [](Frame& f) { f.settings.spreadThreshold = 0.01F; }}};
+  for (const auto& [name, change] : changes)
+    for (const LightKind kind : {LightKind::Directional, LightKind::Spot}) {
+      CAPTURE(name, static_cast<int>(kind));
+      Scene scene(tests::shaftLight(kind));
+      change(scene.rig.scene.frame);
+      checkAll(scene);
+    }
+  Light cascades = tests::shaftLight(LightKind::Directional);
+  cascades.shadow.views = tests::shadowViews(cascades, 3);
+  Scene scene(cascades);
+  checkAll(scene);
+  scene.light().cascadeFade = 0.2; // the reference for curves knows no fades
+  const reference::Image exact = scene.picture(Technique::Exact);
+  for (const Technique technique : kFast)
+    CHECK(errorOf(scene.picture(technique), exact) < 0.04);
+}
+
+TEST_CASE("avsm shafts: an opaque sheet before the light leaves no light, one that lets half through leaves half") {
+  if (!tests::hasAvsm()) return;
+  for (const float passed : {0.0F, 0.5F}) {
+    Light light = tests::shaftLight(LightKind::Spot);
+    light.litOutsideViews = false;
+    Scene scene(light);
+    std::vector<tests::Captured> sheet;
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x)
+        sheet.push_back({{x, y, 0}, 0, 0, passed});
+    scene.smoke->capture(sheet);
+    scene.light().curves = scene.smoke->avsm().curves();
+    for (const Technique technique : {Technique::Exact, Technique::Tree, Technique::Epipolar}) {
+      reference::Image clear = scene.clear(technique);
+      for (double& value : clear.rgb)
+        value *= passed;
+      // In front of the view's near plane, a hundredth of the way, nothing is captured.
+      CHECK(errorOf(scene.picture(technique), clear) < (passed == 0 ? 0.02 : 0.01));
+    }
+  }
+}
+
+TEST_CASE("avsm shafts: temporal reuse draws anew when the curves change, and only then") {
+  if (!tests::hasAvsm()) return;
+  for (const Changes changes : {Changes::Detect, Changes::Objects}) {
+    Scene scene(tests::shaftLight(LightKind::Directional));
+    Frame& frame = scene.rig.scene.frame;
+    frame.settings.technique = Technique::Epipolar;
+    frame.reuse = {changes, 9000 + static_cast<std::uint64_t>(changes), 0, 1.0F, 0};
+    frame.depth.version = scene.light().shadow.version = 1;
+    const auto shareOf = [&] {
+      const reference::Image reused = scene.rig.scene.render().inscatter;
+      const double share = tests::testEffect().statistics().redrawnShare;
+      const Reuse reuse = frame.reuse;
+      frame.reuse = {};
+      CHECK(tests::difference(reused, scene.rig.scene.render().inscatter) <= 1e-5);
+      frame.reuse = reuse;
+      ++frame.reuse.frame;
+      return share;
+    };
+    CHECK(shareOf() == 1);
+    CHECK(shareOf() == 0);
+    scene.fill(4);
+    CHECK(shareOf() == 1);
+    CHECK(shareOf() == 0);
+    scene.light().curves.version = 0; // not known
+    CHECK(shareOf() == 1);
+    CHECK(shareOf() == 1);
+    scene.light().curves = {};
+    CHECK(shareOf() == 1);
+    CHECK(shareOf() == 0);
+  }
+}
+
+TEST_CASE("avsm shafts: curves that break their rules are refused, field and rule named") {
+  if (!tests::hasAvsm()) return;
+  Scene scene(tests::shaftLight(LightKind::Spot));
+  const auto checkRefused = [&](const std::string& part, const std::function<void(Light&)>& spoil) {
+    Frame frame = scene.rig.scene.frame;
+    spoil(frame.lights[0]);
+    const Status status = tests::testEffect().render(frame);
+    CAPTURE(status.message, part);
+    CHECK(status.code == StatusCode::InvalidFrame);
+    CHECK(status.message.find("lights[0]." + part) != std::string::npos);
+  };
+  checkRefused("curves.nodes is 5", [](Light& l) { l.curves.nodes = 5; });
+  checkRefused("curves.texture is texture 987654", [](Light& l) { l.curves.texture = 987654; });
+  checkRefused("curves.texture", [](Light& l) { l.curves.texture = l.shadow.texture; });
+  checkRefused("shadow.texture is 0", [](Light& l) { l.shadow = {}; });
+  checkRefused("curves.texture", [](Light& l) { l.curves.nodes = 16; }); // more layers than there are
+  checkRefused("shadow.views[0].clipFromWorld is without a far plane", [](Light& l) {
+    const glm::dvec3 eye = reference::toVec3(l.position), ahead = reference::toVec3(l.direction);
+    const glm::dmat4 view = glm::lookAt(eye, eye + ahead, glm::dvec3(0, 0, 1));
+    l.shadow.views[0].clipFromWorld = tests::toMat4(glm::infinitePerspective(1.8, 1.0, 0.1) * view);
+  });
+}
