@@ -10,9 +10,10 @@ namespace {
 
 constexpr const char* kShader = "passes/pixelTree.frag";
 
-// Visits do not depend on the medium.
+// Visits do not depend on the medium, nor on smoke.
 gl::Definitions visitsOf(exact::Variant variant) {
   variant.monochrome = true;
+  variant.curves = false;
   gl::Definitions definitions = exact::definitionsOf(variant);
   definitions.emplace_back("COUNT_VISITS", 1);
   return definitions;
@@ -95,7 +96,7 @@ Status run(SliceContext& context, const In& in) {
 
 std::vector<gl::Variant> variantsOf(const exact::Variant& variant) {
   std::vector<gl::Variant> all = {{kShader, pixelsOf(variant, {})}, {kShader, pixelsOf(variant, {true, false})}};
-  if (variant.glass) {
+  if (variant.glass && !variant.curves) {
     all.push_back({kShader, pixelsOf(variant, {true, true})});
     for (const gl::Variant& sums : tint_sums::variantsOf(variant))
       all.push_back(sums);
