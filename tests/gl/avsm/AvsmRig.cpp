@@ -137,24 +137,32 @@ void AvsmRig::capture(const std::vector<Captured>& segments) {
   const tyndall::Status resolved = avsm_->resolve();
   INFO(resolved.message);
   REQUIRE(resolved);
+  gl().Finish(); // so that the next begin() knows of this frame
 }
 
-Curve AvsmRig::curve(const glm::ivec3& texel) const {
+std::vector<std::uint32_t> AvsmRig::bits() const {
   const tyndall::AvsmCurves curves = avsm_->curves();
   REQUIRE(curves.texture != 0);
-  const int perTexel = config_.packed ? 4 : 2, layers = config_.nodes / perTexel;
+  const int layers = config_.layers * config_.nodes / (config_.packed ? 4 : 2);
   const auto size = static_cast<std::size_t>(config_.size);
-  std::vector<std::uint32_t> bits(4 * size * size * static_cast<std::size_t>(layers * config_.layers));
+  std::vector<std::uint32_t> bits(4 * size * size * static_cast<std::size_t>(layers));
   gl().BindTexture(GL_TEXTURE_2D_ARRAY, curves.texture);
   if (config_.packed)
     gl().GetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, bits.data());
   else
     gl().GetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA, GL_FLOAT, bits.data());
+  return bits;
+}
+
+Curve AvsmRig::curve(const glm::ivec3& texel) const {
+  const std::vector<std::uint32_t> all = bits();
+  const int layers = config_.nodes / (config_.packed ? 4 : 2);
+  const auto size = static_cast<std::size_t>(config_.size);
   Curve curve;
   for (int layer = texel.z * layers; layer < (texel.z + 1) * layers; ++layer) {
     const std::uint32_t* at =
-        &bits[4 * ((static_cast<std::size_t>(layer) * size + static_cast<std::size_t>(texel.y)) * size +
-                   static_cast<std::size_t>(texel.x))];
+        &all[4 * ((static_cast<std::size_t>(layer) * size + static_cast<std::size_t>(texel.y)) * size +
+                  static_cast<std::size_t>(texel.x))];
     if (config_.packed) {
       for (int i = 0; i < 4; ++i)
         curve.emplace_back((at[i] >> 16) / 65535.0, (at[i] & 0xFFFFU) / 65535.0);
