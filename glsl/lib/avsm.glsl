@@ -1,6 +1,7 @@
 // What the passes over the captured lists of an adaptive volumetric shadow map share (Salvi et al. 2013, 3.1, 3.2): the lists, an invocation's
 // texel, and curves of a fixed number of nodes with the removal of the cheapest.
 
+#define TYNDALL_LISTS_MEMORY // no two invocations look at one list
 #include "public/avsmCapture.glsl"
 
 layout(std430, binding = 2) buffer ExitLinks {

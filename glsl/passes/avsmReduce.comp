@@ -1,112 +1,46 @@
 // AVSM reduce: each texel's curve from its segments in order, of entries and of exits: of all ends of segments, where the transmittance is
 // known exactly, those nodes are kept that it would change most without, and their values fitted by least squares, never rising (the removal of
 // Salvi 2013, 3.2.1, over the whole curve instead of in the order of insertion). Reads the lists, sorted both ways. Writes curves.
-#define ROOM 32
+#define TYNDALL_CURVE_ROOM 32
 #include "lib/avsm.glsl"
 #include "lib/avsmCurve.glsl"
-
-// A walk along the ends of a texel's segments.
-struct Walk {
-  uint entry, exit; // the next of each
-  float from, to;   // depths of those
-  float depth, opticalDepth;
-  vec2 rate;        // of optical depth, and the rounding it lacks
-  int inside;       // segments
-  float step;       // at most so far at once
-};
-
-float entryOf(uint at) { return at == kTyndallEnd ? 3e38 : segmentAt(at).x; }
-float exitOf(uint at) { return at == kTyndallEnd ? 3e38 : segmentAt(at).y; }
-
-Walk startWalk(uint list) {
-  uint entry = tyndallLists[list].head, exit = tyndallLists[list].exits;
-  return Walk(entry, exit, entryOf(entry), exitOf(exit), -1.0, 0.0, vec2(0.0), 0, 3e38);
-}
-
-// Compensated: what enters leaves again, and nothing may be left of it.
-void addRate(inout Walk walk, float rate) {
-  precise float sum = walk.rate.x + rate;
-  precise float back = sum - walk.rate.x;
-  precise float lost = (walk.rate.x - (sum - back)) + (rate - back);
-  walk.rate = vec2(sum, walk.rate.y + lost);
-}
-
-// Goes on to the next node: an end, or a place between where a line is not enough for an exponential. False if nothing is there, though the
-// walk may not be over.
-bool nextNode(inout Walk walk) {
-  float end = min(walk.from, walk.to);
-  if (end > walk.depth) {
-    float rest = end - walk.depth, parts = ceil(min(rest / walk.step, 64.0));
-    float step = parts > 1.0 ? rest / parts : rest;
-    if (walk.inside > 0) walk.opticalDepth += (walk.rate.x + walk.rate.y) * step;
-    walk.depth = parts > 1.0 ? walk.depth + step : end;
-    return true;
-  }
-  bool jumped = false;
-  if (walk.from <= walk.to) {
-    vec3 segment = segmentAt(walk.entry);
-    float own = opticalDepth(segment.z);
-    jumped = segment.y <= segment.x;
-    if (jumped) walk.opticalDepth += own;
-    else {
-      addRate(walk, own / (segment.y - segment.x));
-      ++walk.inside;
-    }
-    walk.entry = tyndallSegments[walk.entry].w;
-    walk.from = entryOf(walk.entry);
-  } else {
-    vec3 segment = segmentAt(walk.exit);
-    if (segment.y > segment.x) {
-      addRate(walk, -opticalDepth(segment.z) / (segment.y - segment.x));
-      if (--walk.inside == 0) walk.rate = vec2(0.0);
-    }
-    walk.exit = exitLinks[walk.exit];
-    walk.to = exitOf(walk.exit);
-  }
-  float rate = walk.rate.x + walk.rate.y;
-  // A quarter of optical depth bends by less than a hundredth; an eighth of the way, where there is very much of it.
-  walk.step = rate > 0.0 ? max(0.25 / rate, (min(walk.from, walk.to) - walk.depth) / 8.0) : 3e38;
-  return jumped;
-}
-
-bool isOver(Walk walk) { return walk.opticalDepth >= kOpaque || (walk.entry == kTyndallEnd && walk.exit == kTyndallEnd); }
-
-vec2 nodeOf(Walk walk) { return vec2(max(walk.depth, 0.0), passedAt(walk.opticalDepth)); }
+#include "lib/avsmStore.glsl"
+#include "lib/avsmWalk.glsl"
 
 void keepNodes(uint list) {
   Walk walk = startWalk(list);
   while (!isOver(walk)) {
     if (!nextNode(walk)) continue;
-    if (used == ROOM) removeCheapest();
+    if (tyndallUsed == TYNDALL_CURVE_ROOM) tyndallRemoveCheapest();
     vec2 node = nodeOf(walk);
-    for (int i = 0; i < ROOM; ++i)
-      if (i == used) curve[i] = node;
-    ++used;
+    for (int i = 0; i < TYNDALL_CURVE_ROOM; ++i)
+      if (i == tyndallUsed) tyndallCurve[i] = node;
+    ++tyndallUsed;
   }
-  while (used > NODES) removeCheapest();
+  while (tyndallUsed > TYNDALL_CURVE_NODES) tyndallRemoveCheapest();
 }
 
 // What the least squares need: integrals of the transmittance times each node's hat function.
-float products[NODES];
+float products[TYNDALL_CURVE_NODES];
 
 // The stretch between two nodes of the walk lies between two that were kept. Simpson's rule, exact for the square that the transmittance is
 // taken for.
 void addProducts(vec2 a, vec2 b) {
   float middle = sqrt(a.y * b.y), size = (b.x - a.x) / 6.0;
-  for (int i = 0; i + 1 < NODES; ++i) {
-    float low = curve[i].x, high = curve[i + 1].x;
-    if (a.x < low || b.x > high || high <= low || i + 1 >= used) continue;
+  for (int i = 0; i + 1 < TYNDALL_CURVE_NODES; ++i) {
+    float low = tyndallCurve[i].x, high = tyndallCurve[i + 1].x;
+    if (a.x < low || b.x > high || high <= low || i + 1 >= tyndallUsed) continue;
     float p = (a.x - low) / (high - low), q = (b.x - low) / (high - low), m = 0.5 * (p + q);
     products[i] += size * (a.y * (1.0 - p) + 4.0 * middle * (1.0 - m) + b.y * (1.0 - q));
     products[i + 1] += size * (a.y * p + 4.0 * middle * m + b.y * q);
   }
 }
 
-float lengthAt(int i) { return i >= 0 && i + 1 < used ? curve[min(i + 1, NODES - 1)].x - curve[i].x : 0.0; }
+float lengthAt(int i) { return i >= 0 && i + 1 < tyndallUsed ? tyndallCurve[min(i + 1, TYNDALL_CURVE_NODES - 1)].x - tyndallCurve[i].x : 0.0; }
 
 // Values of the inner nodes so that the curve, of lines, is nearest to the walk's in the mean square; the ends keep theirs.
 void fitValues(uint list) {
-  for (int i = 0; i < NODES; ++i) products[i] = 0.0;
+  for (int i = 0; i < TYNDALL_CURVE_NODES; ++i) products[i] = 0.0;
   Walk walk = startWalk(list);
   vec2 last = vec2(-1.0);
   while (!isOver(walk)) {
@@ -116,33 +50,33 @@ void fitValues(uint list) {
     last = node;
   }
   // A tridiagonal system, from the first inner node to the last: half a length beside each, a sixth between.
-  float slope[NODES], offset[NODES]; // value i = offset i - slope i * value i + 1
+  float slope[TYNDALL_CURVE_NODES], offset[TYNDALL_CURVE_NODES]; // value i = offset i - slope i * value i + 1
   slope[0] = 0.0;
-  offset[0] = curve[0].y;
-  for (int i = 1; i < NODES; ++i) {
+  offset[0] = tyndallCurve[0].y;
+  for (int i = 1; i < TYNDALL_CURVE_NODES; ++i) {
     float before = lengthAt(i - 1), behind = lengthAt(i), diagonal = (before + behind) / 3.0 - before / 6.0 * slope[i - 1];
-    bool inner = i < used - 1 && diagonal > 1e-12; // a node without length on either side keeps its value
+    bool inner = i < tyndallUsed - 1 && diagonal > 1e-12; // a node without length on either side keeps its value
     slope[i] = inner ? behind / 6.0 / diagonal : 0.0;
-    offset[i] = inner ? (products[i] - before / 6.0 * offset[i - 1]) / diagonal : curve[i].y;
+    offset[i] = inner ? (products[i] - before / 6.0 * offset[i - 1]) / diagonal : tyndallCurve[i].y;
   }
   float next = 0.0;
-  for (int i = NODES - 1; i >= 0; --i) {
+  for (int i = TYNDALL_CURVE_NODES - 1; i >= 0; --i) {
     next = offset[i] - slope[i] * next;
-    if (i < used) curve[i].y = next;
+    if (i < tyndallUsed) tyndallCurve[i].y = next;
   }
 }
 
 // Between the lowest value before and the highest behind: falls wherever the values do not. The ends keep theirs.
 void makeMonotone() {
-  float highest[NODES], lowest = 1.0, end = 0.0;
-  for (int i = 0; i < NODES; ++i)
-    if (i == used - 1) end = curve[i].y;
-  for (int i = NODES - 1; i >= 0; --i)
-    highest[i] = max(i < used ? curve[i].y : end, i + 1 < NODES ? highest[min(i + 1, NODES - 1)] : 0.0);
-  for (int i = 0; i < NODES; ++i) {
-    if (i >= used) break;
-    lowest = clamp(curve[i].y, end, lowest);
-    curve[i].y = clamp(0.5 * (lowest + highest[i]), 0.0, 1.0);
+  float highest[TYNDALL_CURVE_NODES], lowest = 1.0, end = 0.0;
+  for (int i = 0; i < TYNDALL_CURVE_NODES; ++i)
+    if (i == tyndallUsed - 1) end = tyndallCurve[i].y;
+  for (int i = TYNDALL_CURVE_NODES - 1; i >= 0; --i)
+    highest[i] = max(i < tyndallUsed ? tyndallCurve[i].y : end, i + 1 < TYNDALL_CURVE_NODES ? highest[min(i + 1, TYNDALL_CURVE_NODES - 1)] : 0.0);
+  for (int i = 0; i < TYNDALL_CURVE_NODES; ++i) {
+    if (i >= tyndallUsed) break;
+    lowest = clamp(tyndallCurve[i].y, end, lowest);
+    tyndallCurve[i].y = clamp(0.5 * (lowest + highest[i]), 0.0, 1.0);
   }
 }
 
@@ -150,12 +84,12 @@ void main() {
   ivec3 texel = ownTexel();
   if (isOutside(texel)) return;
   uint list = listOf(texel);
-  for (int i = 0; i < ROOM; ++i) curve[i] = vec2(1.0);
+  for (int i = 0; i < TYNDALL_CURVE_ROOM; ++i) tyndallCurve[i] = vec2(1.0);
   if (tyndallLists[list].count > 0u) {
     keepNodes(list);
-    if (used > 2) fitValues(list);
+    if (tyndallUsed > 2) fitValues(list);
     makeMonotone();
   }
-  padCurve();
+  tyndallPadCurve();
   storeCurve(texel);
 }

@@ -41,12 +41,34 @@ Status checkConfig(const AvsmConfig& config) {
   return {};
 }
 
+// Layers of the curves' texture.
+int curveLayersOf(const AvsmConfig& config) { return config.layers * config.nodes / (config.packed ? 4 : 2); }
+
+Status checkLimits(const gl::Functions& gl, const AvsmConfig& config) {
+  const std::string size = std::to_string(config.size), layers = std::to_string(config.layers);
+  gl::Int width = 0, depth = 0, block = 0;
+  gl.GetIntegerv(gl::MAX_TEXTURE_SIZE, &width);
+  gl.GetIntegerv(gl::MAX_ARRAY_TEXTURE_LAYERS, &depth);
+  gl.GetIntegerv(gl::MAX_SHADER_STORAGE_BLOCK_SIZE, &block);
+  if (config.size > width) return invalid("size", size, "this context has " + std::to_string(width) + " texels a side");
+  if (curveLayersOf(config) > depth)
+    return invalid("layers", layers, "this context has " + std::to_string(depth) + " layers of a texture");
+  const std::uint64_t bytes = avsm::leastBufferBytes(config.size, config.layers);
+  if (block > 0 && bytes > static_cast<std::uint64_t>(block))
+    return invalid("size", size,
+                   "with " + layers + " layers it needs storage buffers of " + std::to_string(bytes) +
+                       " bytes, this context has " + std::to_string(block));
+  return {};
+}
+
 // What a function of OpenGL 4.3 that is missing is called; empty if none is.
 std::string missingFunction(const gl::Functions& gl) {
   const std::pair<const char*, bool> all[] = {
-      {"glDispatchCompute", gl.DispatchCompute},   {"glMemoryBarrier", gl.MemoryBarrier},
-      {"glBindImageTexture", gl.BindImageTexture}, {"glTexStorage3D", gl.TexStorage3D},
-      {"glBufferSubData", gl.BufferSubData},       {"glClearBufferSubData", gl.ClearBufferSubData}};
+      {"glDispatchCompute", gl.DispatchCompute},     {"glMemoryBarrier", gl.MemoryBarrier},
+      {"glBindImageTexture", gl.BindImageTexture},   {"glTexStorage3D", gl.TexStorage3D},
+      {"glBufferSubData", gl.BufferSubData},         {"glClearBufferSubData", gl.ClearBufferSubData},
+      {"glCopyBufferSubData", gl.CopyBufferSubData}, {"glFenceSync", gl.FenceSync},
+      {"glClientWaitSync", gl.ClientWaitSync},       {"glDeleteSync", gl.DeleteSync}};
   for (const auto& [name, known] : all)
     if (!known) return name;
   return {};
@@ -67,20 +89,21 @@ struct Avsm::State {
   gl::Texture curves;
   std::uint64_t version = 0;
   bool began = false;
-  bool holds = false; // anything may be captured
+  bool mayBeEmpty = true; // the newest frame that is known was, or none is known
+  bool holds = false;     // the curves may hold anything
 
   Status makeCurves();
   Status makeObjects();
   Status run(const std::string& name, const std::string& file, const gl::Definitions& definitions, int firstRun = 0,
              int lastRun = 0);
   Status makeOrder();
-  Status dispatchAll();
-  int curveLayers() const { return config.layers * config.nodes / (config.packed ? 4 : 2); }
   std::uint64_t curveBytes() const {
     return std::uint64_t{16} * static_cast<std::uint64_t>(config.size) * static_cast<std::uint64_t>(config.size) *
-           static_cast<std::uint64_t>(curveLayers());
+           static_cast<std::uint64_t>(curveLayersOf(config));
   }
-  gl::Definitions curveDefinitions() const { return {{"NODES", config.nodes}, {"PACKED", config.packed ? 1 : 0}}; }
+  gl::Definitions curveDefinitions() const {
+    return {{"TYNDALL_CURVE_NODES", config.nodes}, {"TYNDALL_CURVE_PACKED", config.packed ? 1 : 0}};
+  }
 };
 
 Avsm::Avsm(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -94,6 +117,7 @@ AvsmResult Avsm::create(const AvsmConfig& config) {
     return {nullptr, s};
   if (const std::string function = missingFunction(gl); !function.empty())
     return {nullptr, {StatusCode::ContextTooOld, "the loader knows no " + function}};
+  if (Status s = checkLimits(gl, config); !s) return {nullptr, s};
   if (Status s = state->makeObjects(); !s) return {nullptr, s};
   return {std::unique_ptr<Avsm>(new Avsm(std::move(state))), {}};
 }
@@ -109,6 +133,8 @@ Status Avsm::begin(std::uint32_t firstBinding) {
                                            std::to_string(bindings) + " storage buffer bindings"};
   const avsm::BufferGuard guard(state.gl);
   state.began = false;
+  state.gl.MemoryBarrier(gl::BUFFER_UPDATE_BARRIER_BIT); // shaders wrote what is emptied
+  if (state.lists->receive()) state.mayBeEmpty = state.lists->known().firsts == 0;
   if (Status s = state.lists->empty(); !s) return s;
   state.lists->bind(firstBinding, false);
   state.began = true;
@@ -125,13 +151,17 @@ Status Avsm::resolve() {
   state.recorder.beginFrame();
   state.gl.MemoryBarrier(gl::SHADER_STORAGE_BARRIER_BIT | gl::BUFFER_UPDATE_BARRIER_BIT);
   ++state.version;
+  state.lists->send();
   // Scenes without smoke pay a wait instead of passes; the others do not wait.
-  if (!state.holds) state.holds = state.lists->header().firsts > 0;
+  if (state.mayBeEmpty) state.mayBeEmpty = state.lists->wait().firsts == 0;
+  state.holds = !state.mayBeEmpty;
   if (!state.holds) {
     state.recorder.skip("curves", "no segment was captured");
     return {};
   }
-  return state.makeCurves();
+  const Status status = state.makeCurves();
+  state.holds = static_cast<bool>(status);
+  return status;
 }
 
 AvsmCurves Avsm::curves() const {
@@ -142,7 +172,7 @@ AvsmCurves Avsm::curves() const {
 AvsmStatistics Avsm::statistics() {
   State& state = *state_;
   const avsm::BufferGuard guard(state.gl);
-  const avsm::ListsHeader header = state.version > 0 ? state.lists->header() : avsm::ListsHeader{};
+  const avsm::ListsHeader header = state.version > 0 ? state.lists->wait() : avsm::ListsHeader{};
   return {state.recorder.collect(), header.captured(), header.lost, state.lists->bytes(), state.curveBytes()};
 }
 
@@ -150,13 +180,14 @@ AvsmStatistics Avsm::statistics() {
 
 Status Avsm::State::makeObjects() {
   const gl::StateGuard guard(gl);
+  const avsm::BufferGuard bufferGuard(gl);
   lists = std::make_unique<avsm::Lists>(gl, config.size, config.layers, config.mostListBytes);
   curves = gl::Texture(gl);
   gl.ActiveTexture(gl::TEXTURE0);
   gl.BindTexture(gl::TEXTURE_2D_ARRAY, curves.name());
   while (gl.GetError() != gl::NO_ERROR) {
   }
-  gl.TexStorage3D(gl::TEXTURE_2D_ARRAY, 1, gl::RGBA32UI, config.size, config.size, curveLayers());
+  gl.TexStorage3D(gl::TEXTURE_2D_ARRAY, 1, gl::RGBA32UI, config.size, config.size, curveLayersOf(config));
   if (gl.GetError() != gl::NO_ERROR)
     return {StatusCode::OutOfMemory, "GL could not allocate " + std::to_string(curveBytes()) + " bytes for curves"};
   for (const gl::Enum filter : {gl::TEXTURE_MIN_FILTER, gl::TEXTURE_MAG_FILTER})
@@ -175,7 +206,7 @@ Status Avsm::State::run(const std::string& name, const std::string& file, const 
   recorder.run(name, [&] {
     const auto groups = static_cast<gl::Uint>((config.size + kGroup - 1) / kGroup);
     gl.DispatchCompute(groups, groups, static_cast<gl::Uint>(config.layers));
-    gl.MemoryBarrier(gl::SHADER_STORAGE_BARRIER_BIT | gl::TEXTURE_FETCH_BARRIER_BIT);
+    gl.MemoryBarrier(gl::SHADER_STORAGE_BARRIER_BIT | gl::TEXTURE_FETCH_BARRIER_BIT | gl::TEXTURE_UPDATE_BARRIER_BIT);
     return true;
   });
   return {};

@@ -10,21 +10,46 @@ namespace {
 constexpr std::uint64_t kListBytes = 16, kSegmentBytes = 16, kExitBytes = 4;
 constexpr std::uint64_t kFirstPerList = 8; // segments, until a frame has told
 
-} // namespace
-
-Lists::Lists(const gl::Functions& gl, int size, int layers, std::uint64_t mostBytes)
-    : gl_(gl), lists_(static_cast<std::uint32_t>(size) * static_cast<std::uint32_t>(size * layers)),
-      mostBytes_(mostBytes), listBuffer_(gl), segmentBuffer_(gl), exitBuffer_(gl) {
-  empty_.width = empty_.height = size;
-  empty_.layers = layers;
+std::uint64_t listsOf(int size, int layers) {
+  return static_cast<std::uint64_t>(size) * static_cast<std::uint64_t>(size) * static_cast<std::uint64_t>(layers);
 }
 
-std::uint64_t Lists::roomIn(std::uint64_t bytes) const {
-  const std::uint64_t least = lists_ * (kListBytes + kSegmentBytes + kExitBytes);
-  return bytes > least ? (bytes - least) / (kSegmentBytes + kExitBytes) : 0;
+} // namespace
+
+std::uint64_t leastBufferBytes(int size, int layers) {
+  return sizeof(ListsHeader) + listsOf(size, layers) * std::max(kListBytes, kSegmentBytes);
+}
+
+Lists::Lists(const gl::Functions& gl, int size, int layers, std::uint64_t mostBytes)
+    : gl_(gl), lists_(listsOf(size, layers)), mostBytes_(mostBytes), listBuffer_(gl), segmentBuffer_(gl),
+      exitBuffer_(gl) {
+  empty_.width = empty_.height = size;
+  empty_.layers = layers;
+  for (Reading& reading : readings_) {
+    reading.buffer = gl::Buffer(gl);
+    gl.BindBuffer(gl::SHADER_STORAGE_BUFFER, reading.buffer.name());
+    gl.BufferData(gl::SHADER_STORAGE_BUFFER, sizeof(ListsHeader), nullptr, gl::STREAM_READ);
+  }
+}
+
+Lists::~Lists() {
+  for (Reading& reading : readings_)
+    forget(reading);
+}
+
+// Segments beyond one for each list that memory, a storage buffer and 32 bits of an index allow.
+std::uint64_t Lists::mostRoom() const {
+  gl::Int limit = 0;
+  gl_.GetIntegerv(gl::MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
+  const auto over = [&](std::uint64_t all) { return all > lists_ ? all - lists_ : 0; };
+  const std::uint64_t least = lists_ * kListBytes;
+  const std::uint64_t memory = mostBytes_ > least ? (mostBytes_ - least) / (kSegmentBytes + kExitBytes) : 0;
+  const std::uint64_t block = static_cast<std::uint64_t>(limit > 0 ? limit : INT32_MAX) / kSegmentBytes;
+  return std::min({over(memory), over(block), over(UINT32_MAX - lists_)});
 }
 
 std::uint64_t Lists::bytes() const {
+  if (!allocated_) return 0;
   return sizeof(ListsHeader) + lists_ * kListBytes + (lists_ + room_) * (kSegmentBytes + kExitBytes);
 }
 
@@ -38,14 +63,8 @@ Status Lists::allocate(const gl::Buffer& buffer, std::uint64_t bytes) const {
 }
 
 Status Lists::empty() {
-  gl::Int64 block = 0;
-  gl::Int limit = 0;
-  gl_.GetIntegerv(gl::MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
-  block = limit > 0 ? limit : INT32_MAX;
-  const std::uint64_t most = std::min({roomIn(mostBytes_), static_cast<std::uint64_t>(block) / kSegmentBytes - lists_,
-                                       std::uint64_t{UINT32_MAX} - 2 * lists_});
-  const std::uint64_t needed = allocated_ ? header().taken : kFirstPerList * lists_;
-  const std::uint64_t room = std::min(most, needed > room_ ? needed + needed / 4 : room_);
+  const std::uint64_t needed = allocated_ ? known_.taken : kFirstPerList * lists_;
+  const std::uint64_t room = needed > room_ || !allocated_ ? std::min(mostRoom(), needed + needed / 4) : room_;
   if (!allocated_) {
     if (Status s = allocate(listBuffer_, sizeof(ListsHeader) + lists_ * kListBytes); !s) return s;
   }
@@ -61,8 +80,8 @@ Status Lists::empty() {
   ListsHeader header = empty_;
   header.room = static_cast<std::uint32_t>(room_);
   gl_.BufferSubData(gl::SHADER_STORAGE_BUFFER, 0, sizeof header, &header);
-  // head, count, lock, exits
-  constexpr std::uint32_t kEmptyList[4] = {0xFFFFFFFFU, 0, 0, 0xFFFFFFFFU};
+  // head, count, deepest, exits
+  constexpr std::uint32_t kEmptyList[4] = {0xFFFFFFFFU, 0, 0xFFFFFFFFU, 0xFFFFFFFFU};
   gl_.ClearBufferSubData(gl::SHADER_STORAGE_BUFFER, gl::RGBA32UI, sizeof header,
                          static_cast<gl::Sizeiptr>(lists_ * kListBytes), gl::RGBA_INTEGER, gl::UNSIGNED_INT,
                          kEmptyList);
@@ -75,11 +94,43 @@ void Lists::bind(gl::Uint first, bool withExits) const {
   if (withExits) gl_.BindBufferBase(gl::SHADER_STORAGE_BUFFER, first + 2, exitBuffer_.name());
 }
 
-ListsHeader Lists::header() const {
-  ListsHeader header;
+void Lists::send() {
+  Reading& reading = readings_[++sent_ % readings_.size()];
+  forget(reading); // where the GPU is that far behind, a newer one comes soon
   gl_.BindBuffer(gl::SHADER_STORAGE_BUFFER, listBuffer_.name());
+  gl_.BindBuffer(gl::UNIFORM_BUFFER, reading.buffer.name());
+  gl_.CopyBufferSubData(gl::SHADER_STORAGE_BUFFER, gl::UNIFORM_BUFFER, 0, 0, sizeof(ListsHeader));
+  reading.sync = gl_.FenceSync(gl::SYNC_GPU_COMMANDS_COMPLETE, 0);
+}
+
+bool Lists::receive() {
+  bool found = false;
+  for (std::size_t age = 0; age < readings_.size(); ++age) {
+    Reading& reading = readings_[(sent_ + readings_.size() - age) % readings_.size()];
+    if (!reading.sync) continue;
+    if (!found) {
+      const gl::Enum state = gl_.ClientWaitSync(reading.sync, gl::SYNC_FLUSH_COMMANDS_BIT, 0);
+      if (state != gl::ALREADY_SIGNALED && state != gl::CONDITION_SATISFIED) continue;
+      known_ = read(reading);
+      found = true;
+    }
+    forget(reading); // this one, and what is older
+  }
+  return found;
+}
+
+ListsHeader Lists::wait() const { return read(readings_[sent_ % readings_.size()]); }
+
+ListsHeader Lists::read(const Reading& reading) const {
+  ListsHeader header;
+  gl_.BindBuffer(gl::SHADER_STORAGE_BUFFER, reading.buffer.name());
   gl_.GetBufferSubData(gl::SHADER_STORAGE_BUFFER, 0, sizeof header, &header);
   return header;
+}
+
+void Lists::forget(Reading& reading) const {
+  if (reading.sync) gl_.DeleteSync(reading.sync);
+  reading.sync = nullptr;
 }
 
 } // namespace tyndall::avsm

@@ -4,6 +4,7 @@
 
 #include "gl/Objects.h"
 
+#include <array>
 #include <cstdint>
 #include <tyndall/tyndall.h>
 
@@ -23,29 +24,52 @@ struct ListsHeader {
 class Lists {
 public:
   Lists(const gl::Functions& gl, int size, int layers, std::uint64_t mostBytes);
+  ~Lists();
+  Lists(const Lists&) = delete;
+  Lists& operator=(const Lists&) = delete;
 
-  /// Empties the lists, with room for what was needed before. Binds buffers to the generic storage target.
+  /// Empties the lists, with room for what the newest frame that is known needed. Binds buffers to the generic storage
+  /// target.
   Status empty();
   /// Binds lists and segments to storage binding `first` and the next, and, if asked for, the links of exits to the one
   /// behind those.
   void bind(gl::Uint first, bool withExits) const;
-  /// What was captured; waits for the GPU. Binds as empty() does.
-  ListsHeader header() const;
+
+  /// Has the header of this frame sent back. Binds buffers to the generic storage and uniform targets.
+  void send();
+  /// Looks, without waiting, for a header that has come back; true if there is a newer one. Binds as empty() does.
+  bool receive();
+  /// Waits for the header sent last. Binds as empty() does.
+  ListsHeader wait() const;
+  /// The newest that receive() found.
+  const ListsHeader& known() const { return known_; }
 
   std::uint64_t bytes() const;
-  std::uint32_t lists() const { return lists_; }
 
 private:
+  struct Reading {
+    gl::Buffer buffer;
+    gl::Sync sync = nullptr; // null if there is nothing to come
+  };
+
   Status allocate(const gl::Buffer& buffer, std::uint64_t bytes) const;
-  std::uint64_t roomIn(std::uint64_t bytes) const;
+  std::uint64_t mostRoom() const;
+  ListsHeader read(const Reading& reading) const;
+  void forget(Reading& reading) const;
 
   const gl::Functions& gl_;
   ListsHeader empty_;
-  std::uint32_t lists_;
+  std::uint64_t lists_;
   std::uint64_t mostBytes_;
   std::uint64_t room_ = 0; // of the buffers as they are
   gl::Buffer listBuffer_, segmentBuffer_, exitBuffer_;
   bool allocated_ = false;
+  ListsHeader known_;
+  std::array<Reading, 3> readings_; // of the last frames: as many as an engine has under way
+  std::size_t sent_ = 0;
 };
+
+/// Bytes of the largest storage buffer that lists of this size need at least.
+std::uint64_t leastBufferBytes(int size, int layers);
 
 } // namespace tyndall::avsm

@@ -26,6 +26,7 @@ using Intptr = std::ptrdiff_t;
 using Sizeiptr = std::ptrdiff_t;
 using Int64 = std::int64_t;
 using Uint64 = std::uint64_t;
+using Sync = void*;
 
 // X(result, name, arguments, state): state names the row of StateGuard that gives back what the function changes, None
 // for functions that change nothing of the engine's (queries, draws into our targets, objects of our own).
@@ -147,6 +148,10 @@ using Uint64 = std::uint64_t;
   X(void, BufferSubData, (Enum target, Intptr offset, Sizeiptr size, const void* data), None)                          \
   X(void, ClearBufferSubData,                                                                                          \
     (Enum target, Enum internal, Intptr offset, Sizeiptr size, Enum format, Enum type, const void* data), None)        \
+  X(void, CopyBufferSubData, (Enum from, Enum to, Intptr fromOffset, Intptr toOffset, Sizeiptr size), None)            \
+  X(Sync, FenceSync, (Enum condition, Bitfield flags), None)                                                           \
+  X(Enum, ClientWaitSync, (Sync sync, Bitfield flags, Uint64 nanoseconds), None)                                       \
+  X(void, DeleteSync, (Sync sync), None)                                                                               \
   X(void, PushDebugGroup, (Enum source, Uint id, Sizei length, const Char* message), None)                             \
   X(void, PopDebugGroup, (), None)
 

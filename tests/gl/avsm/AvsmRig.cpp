@@ -137,25 +137,33 @@ void AvsmRig::capture(const std::vector<Captured>& segments) {
   const tyndall::Status resolved = avsm_->resolve();
   INFO(resolved.message);
   REQUIRE(resolved);
+  gl().Finish(); // so that the next begin() knows of this frame
+}
+
+std::vector<std::uint32_t> AvsmRig::bits() const {
+  const tyndall::AvsmCurves curves = avsm_->curves();
+  REQUIRE(curves.texture != 0);
+  const int layers = config_.layers * config_.nodes / (config_.packed ? 4 : 2);
+  const auto size = static_cast<std::size_t>(config_.size);
+  std::vector<std::uint32_t> bits(4 * size * size * static_cast<std::size_t>(layers));
+  gl().BindTexture(GL_TEXTURE_2D_ARRAY, curves.texture);
+  gl().GetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, bits.data());
+  return bits;
 }
 
 reference::CurveMap AvsmRig::map() const {
-  const tyndall::AvsmCurves curves = avsm_->curves();
-  REQUIRE(curves.texture != 0);
   const std::size_t perTexel = config_.packed ? 4 : 2, layers = static_cast<std::size_t>(config_.nodes) / perTexel;
   const auto size = static_cast<std::size_t>(config_.size), texels = size * size;
-  std::vector<glm::uvec4> stored(texels * layers * static_cast<std::size_t>(config_.layers));
-  gl().BindTexture(GL_TEXTURE_2D_ARRAY, curves.texture);
-  gl().GetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, stored.data());
+  const std::vector<std::uint32_t> all = bits();
   reference::CurveMap map{config_.size, std::vector<Curve>(texels * static_cast<std::size_t>(config_.layers))};
-  for (std::size_t i = 0; i < stored.size(); ++i) {
-    const glm::uvec4 bits = stored[i];
+  for (std::size_t i = 0; i < all.size() / 4; ++i) {
+    const glm::uvec4 node(all[4 * i], all[4 * i + 1], all[4 * i + 2], all[4 * i + 3]);
     Curve& curve = map.curves[i / (texels * layers) * texels + i % texels];
     if (config_.packed) {
       for (int k = 0; k < 4; ++k)
-        curve.emplace_back((bits[k] >> 16) / 65535.0, (bits[k] & 0xFFFFU) / 65535.0);
+        curve.emplace_back((node[k] >> 16) / 65535.0, (node[k] & 0xFFFFU) / 65535.0);
     } else {
-      const glm::dvec4 values(glm::uintBitsToFloat(bits));
+      const glm::dvec4 values(glm::uintBitsToFloat(node));
       curve.emplace_back(values.x, values.y);
       curve.emplace_back(values.z, values.w);
     }

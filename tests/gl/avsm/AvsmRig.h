@@ -38,6 +38,9 @@ public:
   /// begin(), a compute shader that captures these, in an order of the driver's, and resolve().
   void capture(const std::vector<Captured>& segments);
 
+  /// The curves' texture as it is.
+  std::vector<std::uint32_t> bits() const;
+
   /// The curve of a texel, from the texture.
   Curve curve(const glm::ivec3& texel) const;
 
