@@ -170,6 +170,11 @@ void Program::set(const char* uniform, const std::vector<float>& values) {
 void Program::set(const char* uniform, const std::vector<int>& values) {
   gl().Uniform1iv(location(uniform), static_cast<GLsizei>(values.size()), values.data());
 }
+void Program::set(const char* uniform, const std::vector<glm::vec4>& values) {
+  if (!values.empty()) {
+    gl().Uniform4fv(location(uniform), static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));
+  }
+}
 void Program::set(const char* uniform, const std::vector<glm::mat4>& values) {
   if (!values.empty()) {
     gl().UniformMatrix4fv(location(uniform), static_cast<GLsizei>(values.size()), GL_FALSE,

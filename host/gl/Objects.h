@@ -88,6 +88,7 @@ public:
   void set(const char* uniform, const glm::mat4& value);
   void set(const char* uniform, const std::vector<float>& values);
   void set(const char* uniform, const std::vector<int>& values);
+  void set(const char* uniform, const std::vector<glm::vec4>& values);
   void set(const char* uniform, const std::vector<glm::mat4>& values);
 
 private:

@@ -21,6 +21,7 @@ public:
   int width() const { return options_.width; }
   int height() const { return options_.height; }
   bool multisampled() const { return options_.samples > 1; }
+  GLenum depthFormat() const { return options_.depthFormat; }
   GLuint framebuffer() const { return framebuffer_.name(); } ///< what is drawn to
   GLuint colour() const { return colour_.name(); }           ///< GL_TEXTURE_2D
   GLuint depth() const { return depth_.name(); }             ///< GL_TEXTURE_2D, or _2D_MULTISAMPLE if multisampled()

@@ -144,6 +144,9 @@ SceneBuffers::SceneBuffers(const Scene& scene) : materials_(scene.materials), no
       continue;
     }
     for (const Primitive& primitive : meshes_[static_cast<std::size_t>(scene.nodes[node].mesh)]) {
+      if (primitive.mode == GL_LINES) {
+        continue; // strands
+      }
       const SurfaceClass surface = classOf(material(primitive.material));
       hasGlass_ = hasGlass_ || surface == SurfaceClass::Glass;
       draws_.push_back({&primitive, static_cast<int>(node), surface});

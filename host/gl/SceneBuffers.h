@@ -37,7 +37,7 @@ public:
     SurfaceClass surface = SurfaceClass::Opaque;
   };
 
-  /// By material, so that neighbours share their textures.
+  /// By material, so that neighbours share their textures. Without lines, which are strands (gl/StrandRenderer.h).
   const std::vector<Draw>& draws() const { return draws_; }
   const Material& material(int index) const { return materials_[static_cast<std::size_t>(index)]; }
   GLuint textureOf(const Material& material) const; ///< white for a material without texture

@@ -32,18 +32,30 @@ public:
     return shadows_.render(worldFromNode, light, size, target);
   }
 
-  /// Draws the picture: linear radiance and depth. Lights are shadowed where they have a shadow map. The medium, if
-  /// given, attenuates point and spot lights on their way to the surfaces. Glass and blended surfaces leave no depth.
+  /// The smoke and strands that there are from now on; none at first. The scene's own are smokeAt() and strandsAt().
+  void setVolumes(std::vector<SmokeParticle> smoke, Strands strands) {
+    volumes_.set(std::move(smoke), std::move(strands));
+  }
+
+  /// Captures them through light.shadow.views, into maps of `size` texels a side: between begin() and resolve() of an
+  /// Avsm whose binding is 0, with a layer for each view. Throws host::Error where the context is older than OpenGL 4.3
+  /// or a view has no end.
+  void captureVolumes(const tyndall::Light& light, int size) { volumes_.capture(light, size); }
+
+  /// Draws the picture: linear radiance and depth. Lights are shadowed where they have a shadow map, and dimmed where
+  /// they have curves. The medium, if given, attenuates point and spot lights on their way to the surfaces. Glass,
+  /// blended surfaces and smoke leave no depth.
   void renderScene(const std::vector<glm::dmat4>& worldFromNode, const tyndall::Camera& camera,
                    const std::vector<tyndall::Light>& lights, RenderTargets& targets, const glm::vec3& skyRadiance,
                    const tyndall::Medium* medium = nullptr) {
-    surfaces_.render(worldFromNode, camera, lights, targets, skyRadiance, medium);
+    surfaces_.render(worldFromNode, camera, lights, targets, skyRadiance, medium, volumes_);
   }
 
 private:
   SceneBuffers buffers_;
   ShadowRenderer shadows_;
   SurfaceRenderer surfaces_;
+  VolumeRenderer volumes_;
 };
 
 } // namespace host

@@ -68,15 +68,8 @@ void main() {
 )";
 
 /// A Lambert surface: emission and ambient light in one pass, then one pass a light. Writes linear radiance and alpha.
-inline constexpr const char* kSurfaceFragment = R"(#version 330 core
-#define AMBIENT 0
-#define DIRECTIONAL 1
-#define POINT 2
-#define SPOT 3
-const int kMaxViews = 6;
-const float kPi = 3.14159265358979;
-const float kMaxRadiance = 6.0e4; // half floats end at 65504
-
+/// Goes behind kLights.
+inline constexpr const char* kSurfaceFragment = R"(
 in vec3 relativePosition;
 in vec3 relativeNormal;
 in vec2 surfaceUv;
@@ -87,101 +80,6 @@ uniform vec4 baseColour;
 uniform vec3 emission;
 uniform float alphaCutoff;
 uniform vec4 eye; // xyz - w * position points to the viewer, for perspective and orthographic cameras
-uniform vec3 skyRadiance;
-
-uniform int pass;
-uniform vec3 lightPosition;  // relative
-uniform vec3 lightDirection; // where the light travels to, length 1
-uniform vec3 lightColour;
-uniform float lightRange;
-uniform vec2 spotScaleOffset;
-uniform vec3 extinction;
-
-uniform int viewCount; // 0: no shadow map
-uniform mat4 shadowClipFromRelative[kMaxViews];
-uniform int shadowLayer[kMaxViews];
-uniform float shadowTexel[kMaxViews]; // world size of a texel; of perspective views at distance 1
-uniform float shadowSize;             // texels per side
-uniform vec2 depthFromNdc;            // scale and offset
-uniform bool shadowReversed;
-uniform bool shadowIsArray;
-uniform bool litOutsideViews;
-uniform bool hasGlass;
-uniform sampler2DShadow shadowMap;
-uniform sampler2DArrayShadow shadowArray;
-uniform sampler2D glassColour;
-uniform sampler2D glassDepth;
-uniform sampler2DArray glassColourArray;
-uniform sampler2DArray glassDepthArray;
-
-/// The first view that holds the point from its near plane on, or -1. What lies beyond the far plane falls to the last.
-int viewOf(vec3 position) {
-  for (int i = 0; i < viewCount; ++i) {
-    vec4 clip = shadowClipFromRelative[i] * vec4(position, 1.0);
-    if (clip.w <= 0.0 || any(greaterThan(abs(clip.xy), vec2(clip.w)))) continue;
-    float depth = clip.z / clip.w * depthFromNdc.x + depthFromNdc.y;
-    if (shadowReversed) depth = 1.0 - depth;
-    if (depth >= 0.0 && (depth <= 1.0 || i == viewCount - 1)) return i;
-  }
-  return -1;
-}
-
-/// Texture coordinates and depth of a point in a view. The depth is kept in [0, 1], the range of the map.
-vec3 shadowCoordinates(int view, vec3 position) {
-  vec4 clip = shadowClipFromRelative[view] * vec4(position, 1.0);
-  vec3 ndc = clip.xyz / clip.w;
-  return vec3(ndc.xy * 0.5 + 0.5, clamp(ndc.z * depthFromNdc.x + depthFromNdc.y, 0.0, 1.0));
-}
-
-/// Percentage-closer filter: 3 x 3 taps, each of them bilinear.
-float visibilityAt(int view, vec3 coordinates) {
-  float sum = 0.0;
-  for (int y = -1; y <= 1; ++y) {
-    for (int x = -1; x <= 1; ++x) {
-      vec2 uv = coordinates.xy + vec2(x, y) / shadowSize;
-      sum += shadowIsArray ? texture(shadowArray, vec4(uv, shadowLayer[view], coordinates.z))
-                           : texture(shadowMap, vec3(uv, coordinates.z));
-    }
-  }
-  return sum / 9.0;
-}
-
-vec3 glassTintOf(int view, ivec2 texel, float depth) {
-  texel = clamp(texel, ivec2(0), ivec2(int(shadowSize) - 1));
-  int layer = shadowLayer[view];
-  float pane = shadowIsArray ? texelFetch(glassDepthArray, ivec3(texel, layer), 0).r
-                             : texelFetch(glassDepth, texel, 0).r;
-  bool behind = shadowReversed ? depth < pane : depth > pane;
-  if (!behind) return vec3(1.0);
-  return shadowIsArray ? texelFetch(glassColourArray, ivec3(texel, layer), 0).rgb
-                       : texelFetch(glassColour, texel, 0).rgb;
-}
-
-/// Bilinear, with the depth test of each texel by itself.
-vec3 glassTintAt(int view, vec3 coordinates) {
-  vec2 position = coordinates.xy * shadowSize - 0.5;
-  ivec2 low = ivec2(floor(position));
-  vec2 weight = fract(position);
-  vec3 bottom = mix(glassTintOf(view, low, coordinates.z), glassTintOf(view, low + ivec2(1, 0), coordinates.z), weight.x);
-  vec3 top = mix(glassTintOf(view, low + ivec2(0, 1), coordinates.z), glassTintOf(view, low + ivec2(1, 1), coordinates.z),
-                 weight.x);
-  return mix(bottom, top, weight.y);
-}
-
-/// Light that reaches a surface. The position is moved off the surface by what its slope makes of the filter's reach:
-/// taps look up to 2 sqrt(2) texels aside, where a plane at angle theta to the light is nearer by 2 sqrt(2) texels
-/// * tan(theta); a shift by d along the normal gains d / cos(theta). Half a texel more guards against rounding.
-vec3 lightThrough(vec3 normal, float cosTheta, float lightDistance) {
-  if (viewCount == 0) return vec3(1.0);
-  int view = viewOf(relativePosition);
-  if (view < 0) return vec3(litOutsideViews ? 1.0 : 0.0);
-  float texel = shadowTexel[view] * lightDistance;
-  float sinTheta = sqrt(max(0.0, 1.0 - cosTheta * cosTheta));
-  vec3 coordinates = shadowCoordinates(view, relativePosition + normal * (texel * (2.83 * sinTheta + 0.5)));
-  float visibility = visibilityAt(view, coordinates);
-  if (!hasGlass || visibility == 0.0) return vec3(visibility);
-  return visibility * glassTintAt(view, coordinates);
-}
 
 /// Fades the light out where the face turns away from it though the shading normal does not: else the edge of the
 /// lit side would show the triangles. Chiang et al., "Taming the Shadow Terminator" (SIGGRAPH 2019 Talks), equation 3.
@@ -190,27 +88,20 @@ float terminator(float cosine, float faceCosine, float normalCosine) {
   return g * (1.0 + g * (1.0 - g));
 }
 
-/// Irradiance on the surface; shadingNormal and faceNormal point to the viewer's side.
+/// Irradiance on the surface; shadingNormal and faceNormal point to the viewer's side. For the shadow map the position is
+/// moved off the surface by what its slope makes of the filter's reach: taps look up to 2 sqrt(2) texels aside, where a
+/// plane at angle theta to the light is nearer by 2 sqrt(2) texels * tan(theta); a shift by d along the normal gains
+/// d / cos(theta). Half a texel more guards against rounding.
 vec3 irradiance(vec3 shadingNormal, vec3 faceNormal) {
-  vec3 toLight = -lightDirection;
-  vec3 strength = lightColour;
-  float lightDistance = 1.0; // of a directional light, whose texels are as large everywhere
-  if (pass != DIRECTIONAL) {
-    toLight = lightPosition - relativePosition;
-    lightDistance = length(toLight);
-    if (lightDistance == 0.0 || lightDistance > lightRange) return vec3(0.0);
-    toLight /= lightDistance;
-    strength *= exp(-extinction * lightDistance) / (lightDistance * lightDistance);
-  }
-  if (pass == SPOT) {
-    float falloff = clamp(dot(lightDirection, -toLight) * spotScaleOffset.x + spotScaleOffset.y, 0.0, 1.0);
-    strength *= falloff * falloff;
-  }
+  vec3 toLight;
+  float lightDistance;
+  vec3 strength = unblockedIrradiance(relativePosition, toLight, lightDistance);
   float faceCosine = dot(faceNormal, toLight);
   float cosine = dot(shadingNormal, toLight);
   if (faceCosine <= 0.0 || cosine <= 0.0 || strength == vec3(0.0)) return vec3(0.0);
   strength *= cosine * terminator(cosine, faceCosine, dot(shadingNormal, faceNormal));
-  return strength * lightThrough(faceNormal, faceCosine, lightDistance);
+  float texels = 2.83 * sqrt(max(0.0, 1.0 - faceCosine * faceCosine)) + 0.5;
+  return strength * lightThrough(relativePosition, faceNormal, texels, toLight, 0.0, lightDistance);
 }
 
 /// Radiance of a surface under the sky, in place of true ambient occlusion: a surface that looks to the brightest part

@@ -4,6 +4,7 @@
 #include "gltf/Check.h"
 #include "gltf/Container.h"
 #include "gltf/Convert.h"
+#include "gltf/Extras.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,6 +75,7 @@ Scene convert(gltf::Document& document) {
   gltf::convertLights(document, scene);
   const std::vector<int> sceneNodes = gltf::convertNodes(document, scene);
   gltf::convertAnimations(document, sceneNodes, scene);
+  gltf::convertSmoke(document, sceneNodes, scene);
   readTyndallExtras(document, scene);
   scene.notes = document.notes();
   return scene;

@@ -61,4 +61,8 @@ std::vector<tyndall::MovingObject> movedObjects(const Scene& scene, const std::v
   return objects;
 }
 
+tyndall::MovingObject movedBox(const Bounds& last, const Bounds& now) {
+  return {toMat4(nodeFromBox(now)), toMat4(nodeFromBox(last))};
+}
+
 } // namespace host

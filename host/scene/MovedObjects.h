@@ -13,4 +13,7 @@ std::vector<tyndall::MovingObject> movedObjects(const Scene& scene, const std::v
                                                 const std::vector<glm::dmat4>& last,
                                                 const std::vector<glm::dmat4>& now);
 
+/// The world-space box around something that changes, in the last frame and in this one.
+tyndall::MovingObject movedBox(const Bounds& last, const Bounds& now);
+
 } // namespace host

@@ -89,7 +89,7 @@ Bounds boundsOf(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode
   for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
     if (scene.nodes[n].mesh < 0) continue;
     for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(scene.nodes[n].mesh)].primitives) {
-      if (primitive.topology != Topology::Triangles) continue;
+      if (primitive.topology == Topology::Points) continue;
       for (const std::uint32_t index : primitive.indices) {
         const glm::dvec3 position(worldFromNode[n] * glm::dvec4(primitive.vertices[index].position, 1));
         bounds.low = glm::min(bounds.low, position);

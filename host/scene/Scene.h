@@ -19,12 +19,19 @@ struct Vertex {
 
 enum class Topology { Points, Lines, Triangles };
 
+/// What lines look like: each is a strand of hair, thread and the like.
+struct Strand {
+  double width = 0;   ///< world units, > 0
+  double opacity = 1; ///< share of the light that a strand stops where it covers a place, 0 to 1
+};
+
 /// Indexed geometry of one material. Strips, fans and loops are unrolled by the loader; indices are in range.
 struct Primitive {
   Topology topology = Topology::Triangles;
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> indices;
   int material = 0; ///< index into Scene::materials, always valid
+  Strand strand;    ///< of lines
 };
 
 struct Mesh {
@@ -86,6 +93,27 @@ struct Node {
   int light = -1;
 };
 
+/// A source of soft balls of smoke (scene/Smoke.h), from extras.tyndall.smoke of a node. Lengths are in world units
+/// whatever the node's scale, and smoke rises along the world's y axis.
+struct SmokeEmitter {
+  int node = 0;        ///< index into Scene::nodes: where smoke comes from
+  int particles = 200; ///< alive at any time, 1 to 100000
+  double radius = 0.2; ///< of the largest particle when it is born, > 0
+  double growth =
+      3; ///< radius and distance from the middle of the column at the end of a life, over those at its begin
+  double density = 2;      ///< extinction in the middle of a particle before it has grown, 1/world unit, >= 0
+  double spread = 0.1;     ///< radius of the disc where particles are born, >= 0
+  double height = 2;       ///< that particles rise in their life, > 0
+  double rise = 0.5;       ///< speed, world units/s, > 0: a life lasts height / rise
+  glm::dvec3 drift{0};     ///< velocity that is added, world units/s
+  double turbulence = 0.3; ///< farthest that eddies carry a particle by the end of its life, >= 0
+  glm::vec3 albedo{0.9F};  ///< share of the stopped light that is scattered, 0 to 1
+  int seed = 0;            ///< of the places and eddies, 0 to 2^31 - 1
+  double lifetime() const {
+    return height / rise;
+  } ///< seconds; the smoke of a node that does not move repeats after it
+};
+
 enum class AnimationPath { Translation, Rotation, Scale };
 enum class Interpolation { Step, Linear, CubicSpline };
 
@@ -105,6 +133,7 @@ struct Scene {
   std::vector<Texture> textures;
   std::vector<Camera> cameras;
   std::vector<Light> lights;
+  std::vector<SmokeEmitter> smoke;
   std::vector<AnimationChannel> animation; ///< all animations of the file, played at once
   std::optional<tyndall::Medium> medium;   ///< extras.tyndall.medium of the file's scene
   glm::vec3 skyRadiance{0.0F};             ///< extras.tyndall.sky: radiance of the sky and of ambient light
@@ -114,7 +143,7 @@ struct Scene {
 /// The node transforms at a time in seconds, worldFromNode for each node.
 std::vector<glm::dmat4> poseAt(const Scene& scene, double seconds);
 
-/// The bounds of all triangles in a pose, low and high corner; both 0 if there is none.
+/// The bounds of all triangles and strands in a pose, low and high corner; both 0 if there is none.
 struct Bounds {
   glm::dvec3 low{0};
   glm::dvec3 high{0};

@@ -263,7 +263,7 @@ std::vector<std::string> fitShadowViews(tyndall::Light& light, const Scene& scen
                                         const ShadowOptions& options) {
   light.shadow.views.clear();
   light.shadow.clipDepth = options.clipDepth;
-  const WorldGeometry geometry = worldGeometry(scene, worldFromNode);
+  const WorldGeometry geometry = blockingGeometry(scene, worldFromNode, options.seconds);
   if (geometry.triangles.empty()) return {};
   if (light.kind == tyndall::LightKind::Spot) return fitSpot(light, geometry, options);
   if (light.kind == tyndall::LightKind::Point)

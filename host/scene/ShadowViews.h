@@ -13,12 +13,15 @@ namespace host {
 struct ShadowOptions {
   bool reversedDepth = false;
   tyndall::ClipDepth clipDepth = tyndall::ClipDepth::NegativeOneToOne;
-  int cascades = 1; ///< 1 to 4, of a directional light
+  int cascades = 1;   ///< 1 to 4, of a directional light
+  double seconds = 0; ///< the time of the pose, for smoke whose source moves
 };
 
 /// Fills light.shadow.views (matrices; layers 0, 1, ...) and light.shadow.clipDepth, and nothing else of the light.
 ///
-/// Directional: a box along the light that holds all casters, glass too, turned about the light's direction for the
+/// Casters are triangles, glass too, and boxes around smoke and strands.
+///
+/// Directional: a box along the light that holds all casters, turned about the light's direction for the
 /// smallest area. Sideways it is cut to what a camera ray can reach of the casters' shadows, so every point of a camera
 /// ray outside it is lit. Cascades divide the view depth up to the scene's end; each takes in all casters towards the
 /// light. Spot: one pyramid around the cone. Point: six pyramids of 90 degrees. Their depth range is that of the

@@ -133,7 +133,7 @@ tyndall::Camera makeLookAt(const Scene& scene, const std::vector<glm::dmat4>& wo
                            const glm::dvec3& target, double fovDegrees, double aspect, const CameraOptions& options) {
   if (eye == target) throw Error(fmt::format("eye {}: must differ from the target", text(eye)));
   const double halfHeight = std::tan(0.5 * kDegrees * fovDegrees);
-  const auto range = depthRangeInPyramid(worldGeometry(scene, worldFromNode), viewLooking(eye, target - eye),
+  const auto range = depthRangeInPyramid(visibleGeometry(scene, worldFromNode), viewLooking(eye, target - eye),
                                          halfHeight * aspect, halfHeight);
   // Without triangles any planes do: take them from the one length there is.
   const double farPlane = 1.01 * (range && range->farthest > 0 ? range->farthest : glm::distance(eye, target));
@@ -146,7 +146,7 @@ tyndall::Camera makeDefaultCamera(const Scene& scene, const std::vector<glm::dma
   const Bounds bounds = boundsOf(scene, worldFromNode);
   const glm::dvec3 middle = 0.5 * (bounds.low + bounds.high);
   const glm::dvec3 size = bounds.high - bounds.low;
-  const WorldGeometry geometry = worldGeometry(scene, worldFromNode);
+  const WorldGeometry geometry = visibleGeometry(scene, worldFromNode);
   glm::dvec3 eye;
   double fov = kDefaultFov;
   if (isRoom(scene, surroundingsOf(geometry, middle))) {

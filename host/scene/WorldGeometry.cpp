@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <scene/Smoke.h>
 
 namespace host {
 
@@ -19,6 +20,34 @@ void append(WorldGeometry& geometry, const Primitive& primitive, const glm::dmat
     }
     geometry.triangles.push_back(place[index]);
   }
+}
+
+void appendBox(WorldGeometry& geometry, const Bounds& box, const glm::dmat4& worldFromBox) {
+  constexpr std::uint32_t kFaces[] = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
+                                      2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
+  const auto first = static_cast<std::uint32_t>(geometry.points.size());
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::bvec3 pick((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0);
+    geometry.points.emplace_back(worldFromBox * glm::dvec4(glm::mix(box.low, box.high, pick), 1));
+  }
+  for (const std::uint32_t corner : kFaces)
+    geometry.triangles.push_back(first + corner);
+}
+
+/// Around the ends of all lines of a mesh.
+std::optional<Bounds> strandBounds(const Mesh& mesh) {
+  constexpr double kHuge = std::numeric_limits<double>::infinity();
+  Bounds bounds{glm::dvec3(kHuge), glm::dvec3(-kHuge)};
+  for (const Primitive& primitive : mesh.primitives) {
+    if (primitive.topology != Topology::Lines) continue;
+    for (const std::uint32_t index : primitive.indices) {
+      const glm::dvec3 position(primitive.vertices[index].position);
+      bounds.low = glm::min(bounds.low, position);
+      bounds.high = glm::max(bounds.high, position);
+    }
+  }
+  if (bounds.low.x > bounds.high.x) return std::nullopt;
+  return bounds;
 }
 
 /// A triangle cut by four planes has at most seven corners.
@@ -51,6 +80,23 @@ WorldGeometry worldGeometry(const Scene& scene, const std::vector<glm::dmat4>& w
     for (const Primitive& primitive : scene.meshes[scene.nodes[node].mesh].primitives)
       if (primitive.topology == Topology::Triangles) append(geometry, primitive, worldFromNode[node]);
   }
+  return geometry;
+}
+
+WorldGeometry visibleGeometry(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode) {
+  WorldGeometry geometry = worldGeometry(scene, worldFromNode);
+  for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
+    if (scene.nodes[node].mesh < 0) continue;
+    const auto bounds = strandBounds(scene.meshes[static_cast<std::size_t>(scene.nodes[node].mesh)]);
+    if (bounds) appendBox(geometry, *bounds, worldFromNode[node]);
+  }
+  return geometry;
+}
+
+WorldGeometry blockingGeometry(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode, double seconds) {
+  WorldGeometry geometry = visibleGeometry(scene, worldFromNode);
+  for (const SmokeEmitter& emitter : scene.smoke)
+    appendBox(geometry, smokeBounds(scene, emitter, seconds), glm::dmat4(1));
   return geometry;
 }
 

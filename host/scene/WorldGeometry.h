@@ -23,6 +23,12 @@ struct WorldGeometry {
 
 WorldGeometry worldGeometry(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode);
 
+/// The same, and a box around the strands of each node.
+WorldGeometry visibleGeometry(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode);
+
+/// The same, and a box around each emitter's smoke at a time: all that may stand in the way of light.
+WorldGeometry blockingGeometry(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode, double seconds);
+
 /// Nearest and farthest distance along -z.
 struct DepthRange {
   double nearest = 0;

@@ -43,9 +43,10 @@ Exit status
 struct Typed {
   std::string scene, camera, eye, target, fov, sun, size, supersample, profile, technique, view, slices, samples,
       rowStep, tree, breakThreshold, bendThreshold, leastWeight, averageThreshold, spreadThreshold, lowRankTerms,
-      sampleBudget, cascadeFade, filter, medium, shadowSize, cascades, frames, repeat, context, stats, exposure;
+      sampleBudget, cascadeFade, filter, medium, shadowSize, avsmSize, avsmNodes, cascades, frames, repeat, context,
+      stats, exposure;
   std::vector<std::string> out;
-  bool reversedDepth = false, noReuse = false, detectChanges = false;
+  bool reversedDepth = false, noReuse = false, noAvsm = false, detectChanges = false;
 };
 
 double parseFinite(const std::string& option, const std::string& value, const std::string& part) {
@@ -167,6 +168,10 @@ void readQuality(const Typed& typed, Options& options) {
   options.shadowSize = parseInt("--shadow-size", typed.shadowSize, 1, tyndall::kMaxImageSize);
   options.cascades = parseInt("--cascades", typed.cascades, 1, 4);
   if (const auto fade = parseThreshold("--cascade-fade", typed.cascadeFade, true, 0.5)) options.cascadeFade = *fade;
+  options.avsm = !typed.noAvsm;
+  options.avsmSize = parseInt("--avsm-size", typed.avsmSize, 1, 4096);
+  options.avsmNodes = parseInt("--avsm-nodes", typed.avsmNodes, 4, 16);
+  if (options.avsmNodes % 4 != 0) failUsage("--avsm-nodes", typed.avsmNodes, "must be 4, 8, 12 or 16");
   options.reversedDepth = typed.reversedDepth;
   if (!typed.repeat.empty()) options.repeat = parseInt("--repeat", typed.repeat, 1, kMaxRepeat);
 }
@@ -235,6 +240,10 @@ void addOptions(CLI::App& app, Typed& typed) {
                  "share of a cascade's width over which it fades into the next, up to 0.5 (default 0.1)");
   app.add_option("--cascades", typed.cascades, "shadow maps of a directional light, 1 to 4 (default 1)")
       ->type_name("N");
+  app.add_option("--avsm-size", typed.avsmSize, "texels per side of a light's map of smoke and strands (default 256)")
+      ->type_name("N");
+  app.add_option("--avsm-nodes", typed.avsmNodes, "nodes of its curves: 4, 8 (default), 12 or 16")->type_name("N");
+  app.add_flag("--no-avsm", typed.noAvsm, "smoke and strands cast no shadows");
   app.add_flag("--reversed-depth", typed.reversedDepth, "camera and shadow depth fall from 1 to 0");
   app.add_option("--frames", typed.frames, "frames of the animation, at 24 a second")->type_name("A-B");
   app.add_flag("--no-reuse", typed.noReuse, "draw every frame in full, not only what has moved since the last one");
@@ -281,6 +290,8 @@ Options parseOptions(int argc, const char* const* argv) {
   typed.profile = "high";
   typed.filter = "nearest";
   typed.shadowSize = "4096";
+  typed.avsmSize = "256";
+  typed.avsmNodes = "8";
   typed.cascades = "1";
   typed.context = "osmesa";
   CLI::App app("Renders a glTF scene with Tyndall's volumetric shadows.", "tyndall-render");

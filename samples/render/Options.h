@@ -51,6 +51,9 @@ struct Options {
   int shadowSize = 4096;
   int cascades = 1;
   double cascadeFade = 0.1;
+  bool avsm = true;   ///< whether smoke and strands cast shadows
+  int avsmSize = 256; ///< texels per side
+  int avsmNodes = 8;
   bool reversedDepth = false;       ///< of camera and shadow maps, with clip depth from 0 to 1
   std::optional<FrameRange> frames; ///< none: frame 0, and one object in the statistics instead of a list
   tyndall::Changes changes = tyndall::Changes::Unknown; ///< how frames after the first reuse what they can

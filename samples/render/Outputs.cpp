@@ -42,9 +42,9 @@ host::Image imageOf(const Picture& picture, int width, int height) {
   return image;
 }
 
-nlohmann::ordered_json passesOf(const tyndall::Statistics& statistics) {
+nlohmann::ordered_json passesOf(const std::vector<tyndall::PassStatistics>& statistics) {
   nlohmann::ordered_json passes = nlohmann::ordered_json::array();
-  for (const tyndall::PassStatistics& pass : statistics.passes)
+  for (const tyndall::PassStatistics& pass : statistics)
     if (pass.skipped.empty())
       passes.push_back({{"name", pass.name}, {"ms", pass.milliseconds}});
     else
@@ -52,22 +52,38 @@ nlohmann::ordered_json passesOf(const tyndall::Statistics& statistics) {
   return passes;
 }
 
+/// "avsm": what smoke and strands cost, for each light.
+nlohmann::ordered_json volumeShadowsOf(const std::vector<VolumeShadowStatistics>& lights) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const VolumeShadowStatistics& light : lights)
+    list.push_back({{"light", light.light},
+                    {"segments", light.avsm.segments},
+                    {"lost", light.avsm.lost},
+                    {"list_bytes", light.avsm.listBytes},
+                    {"curve_bytes", light.avsm.curveBytes},
+                    {"capture_ms", light.captureMilliseconds},
+                    {"passes", passesOf(light.avsm.passes)}});
+  return list;
+}
+
 nlohmann::ordered_json statisticsOf(const FrameStatistics& frame, const Options& options, const std::string& driver) {
   const Measurement& measurement = frame.measurement;
-  return {{"driver", driver},
-          {"context", host::nameOf(options.context)},
-          {"size", {renderedWidth(options), renderedHeight(options)}},
-          {"technique", options.technique},
-          {"profile", options.profile},
-          {"effect_ms",
-           {{"median", measurement.median()},
-            {"min", measurement.milliseconds.front()},
-            {"max", measurement.milliseconds.back()}}},
-          {"bytes", measurement.statistics.bytes},
-          {"passes", passesOf(measurement.statistics)},
-          {"marched_samples", measurement.statistics.marchedSamples},
-          {"fixup_pixels", measurement.statistics.fixupPixels},
-          {"redrawn_share", measurement.statistics.redrawnShare}};
+  nlohmann::ordered_json json = {{"driver", driver},
+                                 {"context", host::nameOf(options.context)},
+                                 {"size", {renderedWidth(options), renderedHeight(options)}},
+                                 {"technique", options.technique},
+                                 {"profile", options.profile},
+                                 {"effect_ms",
+                                  {{"median", measurement.median()},
+                                   {"min", measurement.milliseconds.front()},
+                                   {"max", measurement.milliseconds.back()}}},
+                                 {"bytes", measurement.statistics.bytes},
+                                 {"passes", passesOf(measurement.statistics.passes)},
+                                 {"marched_samples", measurement.statistics.marchedSamples},
+                                 {"fixup_pixels", measurement.statistics.fixupPixels},
+                                 {"redrawn_share", measurement.statistics.redrawnShare}};
+  if (!measurement.volumeShadows.empty()) json["avsm"] = volumeShadowsOf(measurement.volumeShadows);
+  return json;
 }
 
 } // namespace

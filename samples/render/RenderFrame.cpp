@@ -10,6 +10,8 @@
 #include <scene/MovedObjects.h>
 #include <scene/Projection.h>
 #include <scene/ShadowViews.h>
+#include <scene/Smoke.h>
+#include <scene/Strands.h>
 
 namespace render {
 
@@ -100,6 +102,7 @@ FrameRenderer::FrameRenderer(const Options& options)
   if (!created.status) throw host::Error("effect: " + created.status.message);
   effect_ = std::move(created.effect);
   meshBounds_ = host::meshBounds(scene_);
+  if (hasVolumes()) makeVolumeShadows();
 
   const host::Bounds bounds = host::boundsOf(scene_, host::poseAt(scene_, 0));
   frame_.medium = options.medium ? host::loadMedium(*options.medium) : host::mediumOf(scene_, bounds, notes_);
@@ -132,9 +135,25 @@ std::vector<tyndall::Light> FrameRenderer::makeLights(const std::vector<glm::dma
   return {sun};
 }
 
-void FrameRenderer::renderShadowMaps(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) {
+bool FrameRenderer::hasVolumes() const { return !scene_.smoke.empty() || host::hasStrands(scene_); }
+
+void FrameRenderer::makeVolumeShadows() {
+  if (!options_.avsm) return;
+  constexpr int kNeeded = 43;
+  const int version = context_->glVersion();
+  if (version >= kNeeded) {
+    volumeShadows_ = std::make_unique<VolumeShadows>(context_->loader(), timingFor(context_->driver()),
+                                                     options_.avsmSize, options_.avsmNodes);
+    return;
+  }
+  notes_.push_back("smoke and strands are drawn without their shadows: adaptive volumetric shadow maps need OpenGL "
+                   "4.3, and the context has " +
+                   std::to_string(version / 10) + "." + std::to_string(version % 10));
+}
+
+void FrameRenderer::renderShadowMaps(const std::vector<glm::dmat4>& worldFromNode, double seconds, host::Notes& notes) {
   shadowMaps_.clear();
-  const host::ShadowOptions shadowOptions{options_.reversedDepth, clipDepthOf(options_), options_.cascades};
+  const host::ShadowOptions shadowOptions{options_.reversedDepth, clipDepthOf(options_), options_.cascades, seconds};
   for (tyndall::Light& light : frame_.lights) {
     addOnce(notes, host::fitShadowViews(light, scene_, worldFromNode, frame_.camera, shadowOptions));
     if (light.shadow.views.empty()) continue;
@@ -143,6 +162,18 @@ void FrameRenderer::renderShadowMaps(const std::vector<glm::dmat4>& worldFromNod
     shadowMaps_.push_back(sceneRenderer_->renderShadowMap(worldFromNode, light, options_.shadowSize));
     shadowMaps_.back().attachTo(light);
   }
+  if (!hasVolumes()) return;
+  sceneRenderer_->setVolumes(host::smokeAt(scene_, seconds), host::strandsAt(scene_, worldFromNode));
+  if (volumeShadows_) volumeShadows_->update(*sceneRenderer_, frame_.lights);
+}
+
+// Smoke moves in every frame: all of the box around it may dim the light anew.
+void FrameRenderer::addMovedObjects(const std::vector<glm::dmat4>& worldFromNode, double seconds) {
+  frame_.objects = host::movedObjects(scene_, meshBounds_, lastPose_, worldFromNode);
+  if (!volumeShadows_) return;
+  for (const host::SmokeEmitter& emitter : scene_.smoke)
+    frame_.objects.push_back(
+        host::movedBox(host::smokeBounds(scene_, emitter, lastSeconds_), host::smokeBounds(scene_, emitter, seconds)));
 }
 
 void FrameRenderer::restoreColour() const {
@@ -198,25 +229,27 @@ void FrameRenderer::throwGlErrors() const {
 }
 
 void FrameRenderer::draw(int frame) {
-  const std::vector<glm::dmat4> worldFromNode = host::poseAt(scene_, frame / kFramesPerSecond);
+  const double seconds = frame / kFramesPerSecond;
+  const std::vector<glm::dmat4> worldFromNode = host::poseAt(scene_, seconds);
   host::Notes notes;
   frame_.camera = makeCamera(worldFromNode, notes);
   frame_.lights = makeLights(worldFromNode, notes);
   const glm::vec3 sky = host::skyOf(scene_, worldFromNode, frame_.lights, notes);
-  renderShadowMaps(worldFromNode, notes);
+  renderShadowMaps(worldFromNode, seconds, notes);
   addOnce(notes_, notes);
   sceneRenderer_->renderScene(worldFromNode, frame_.camera, frame_.lights, surfaces_, sky, &frame_.medium);
   ++frame_.reuse.frame;
   frame_.objects.clear();
-  if (options_.changes == tyndall::Changes::Objects && !lastPose_.empty())
-    frame_.objects = host::movedObjects(scene_, meshBounds_, lastPose_, worldFromNode);
+  if (options_.changes == tyndall::Changes::Objects && !lastPose_.empty()) addMovedObjects(worldFromNode, seconds);
   lastPose_ = worldFromNode;
+  lastSeconds_ = seconds;
   throwGlErrors();
 }
 
 Measurement FrameRenderer::render(int frame) {
   draw(frame);
   Measurement measurement = measure();
+  if (volumeShadows_) measurement.volumeShadows = volumeShadows_->statistics();
   throwGlErrors();
   return measurement;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Options.h"
+#include "VolumeShadows.h"
 
 #include <gl/Context.h>
 #include <gl/RenderTargets.h>
@@ -29,6 +30,7 @@ struct Picture {
 struct Measurement {
   std::vector<double> milliseconds; ///< of each timed render, wall time around glFinish, ascending
   tyndall::Statistics statistics;   ///< of the render with the median time
+  std::vector<VolumeShadowStatistics> volumeShadows;
 
   double median() const;
 };
@@ -62,7 +64,10 @@ public:
 private:
   tyndall::Camera makeCamera(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) const;
   std::vector<tyndall::Light> makeLights(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) const;
-  void renderShadowMaps(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes);
+  void renderShadowMaps(const std::vector<glm::dmat4>& worldFromNode, double seconds, host::Notes& notes);
+  void makeVolumeShadows();
+  void addMovedObjects(const std::vector<glm::dmat4>& worldFromNode, double seconds);
+  bool hasVolumes() const;
   void restoreColour() const;
   double renderEffect(const tyndall::Frame& frame); ///< milliseconds
   Measurement measure();
@@ -78,9 +83,11 @@ private:
   host::GlTexture inscatter_;
   host::GlTexture transmittance_;
   std::vector<host::ShadowMapTextures> shadowMaps_;
+  std::unique_ptr<VolumeShadows> volumeShadows_; ///< none without smoke and strands, or where they cast no shadow
   std::unique_ptr<tyndall::Effect> effect_;
   std::vector<host::Bounds> meshBounds_;
   std::vector<glm::dmat4> lastPose_; ///< of the last frame; empty before the first
+  double lastSeconds_ = 0;
   tyndall::Frame frame_;
 };
 

@@ -86,10 +86,12 @@ bool isUsed(const Scene& scene, std::size_t material) {
     return material < surfaces.size() && !surfaces[material].indices.empty();
   };
   return hasIt(scene.surfaces) ||
+         std::any_of(scene.strands.begin(), scene.strands.end(),
+                     [&](const Strands& strands) { return strands.material == static_cast<int>(material); }) ||
          std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) { return hasIt(body.surfaces); });
 }
 
-/// Appends the materials that have triangles; returns the index in the file of each of the scene's, -1 without one.
+/// Appends the materials that are in use; returns the index in the file of each of the scene's, -1 without one.
 std::vector<int> appendMaterials(tinygltf::Model& model, const Scene& scene) {
   std::vector<int> indices(scene.materials.size(), -1);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -190,6 +192,44 @@ void appendBodies(tinygltf::Model& model, const Scene& scene, const std::vector<
   }
 }
 
+tinygltf::Value tyndallExtras(const char* name, tinygltf::Value::Object fields) {
+  const tinygltf::Value::Object tyndall{{name, tinygltf::Value(std::move(fields))}};
+  return tinygltf::Value(tinygltf::Value::Object{{"tyndall", tinygltf::Value(tyndall)}});
+}
+
+void appendStrands(tinygltf::Model& model, const Strands& strands, const std::vector<int>& materials) {
+  tinygltf::Primitive primitive;
+  primitive.mode = TINYGLTF_MODE_LINE;
+  primitive.material = materials[static_cast<std::size_t>(strands.material)];
+  primitive.attributes["POSITION"] = appendVectors(model, strands.points, true);
+  primitive.indices = appendIndices(model, strands.indices);
+  primitive.extras = tyndallExtras(
+      "strand", {{"width", tinygltf::Value(strands.width)}, {"opacity", tinygltf::Value(strands.opacity)}});
+  tinygltf::Mesh mesh;
+  mesh.name = strands.name;
+  mesh.primitives.push_back(primitive);
+  model.meshes.push_back(mesh);
+  appendMeshNode(model, strands.name, static_cast<int>(model.meshes.size()) - 1);
+}
+
+void appendSmoke(tinygltf::Model& model, const Smoke& smoke) {
+  tinygltf::Node node;
+  node.name = smoke.name;
+  node.translation = listOf(smoke.position);
+  node.extras = tyndallExtras("smoke", {{"particles", tinygltf::Value(smoke.particles)},
+                                        {"radius", tinygltf::Value(smoke.radius)},
+                                        {"growth", tinygltf::Value(smoke.growth)},
+                                        {"density", tinygltf::Value(smoke.density)},
+                                        {"spread", tinygltf::Value(smoke.spread)},
+                                        {"height", tinygltf::Value(smoke.height)},
+                                        {"rise", tinygltf::Value(smoke.rise)},
+                                        {"drift", valueOf(smoke.drift)},
+                                        {"turbulence", tinygltf::Value(smoke.turbulence)},
+                                        {"albedo", valueOf(smoke.albedo)},
+                                        {"seed", tinygltf::Value(smoke.seed)}});
+  appendNode(model, node);
+}
+
 /// A node at a place whose -z axis looks along a direction, as glTF's cameras and lights do.
 tinygltf::Node nodeLooking(const std::string& name, const glm::dvec3& position, const glm::dvec3& direction) {
   const glm::dvec3 z = -glm::normalize(direction);
@@ -272,6 +312,10 @@ void writeGlb(const Scene& scene, const std::string& path) {
   const std::vector<int> materials = appendMaterials(model, scene);
   appendMeshNode(model, scene.name, appendMesh(model, scene.name, scene.surfaces, materials));
   appendBodies(model, scene, materials);
+  for (const Strands& strands : scene.strands)
+    appendStrands(model, strands, materials);
+  for (const Smoke& smoke : scene.smoke)
+    appendSmoke(model, smoke);
   appendCamera(model, scene.camera);
   for (const Light& light : scene.lights)
     appendLight(model, light);

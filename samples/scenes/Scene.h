@@ -40,6 +40,33 @@ struct Body {
   std::vector<Pose> poses;       ///< one or more, in order of time
 };
 
+/// A source of smoke, as extras.tyndall.smoke of a node (scene/Scene.h of the host explains the fields).
+struct Smoke {
+  std::string name;
+  glm::dvec3 position{0};
+  int particles = 200;
+  double radius = 0.2; ///< metres
+  double growth = 3;
+  double density = 1; ///< 1/metre
+  double spread = 0.1;
+  double height = 2;
+  double rise = 0.5; ///< metres a second
+  glm::dvec3 drift{0};
+  double turbulence = 0.3;
+  glm::dvec3 albedo{0.9};
+  int seed = 0;
+};
+
+/// Lines of one material that are hair, ropes and the like.
+struct Strands {
+  std::string name;
+  int material = 0;
+  double width = 0.001; ///< metres
+  double opacity = 0.6;
+  std::vector<glm::dvec3> points;
+  std::vector<std::uint32_t> indices; ///< two a segment
+};
+
 struct Camera {
   glm::dvec3 eye{0, 1.7, 5};
   glm::dvec3 target{0, 1.7, 0};
@@ -72,6 +99,8 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Surface> surfaces; ///< one a material, of what stands still
   std::vector<Body> bodies;
+  std::vector<Smoke> smoke;
+  std::vector<Strands> strands;
   Camera camera;
   std::vector<Light> lights;
   std::vector<Constituent> constituents;
@@ -98,6 +127,12 @@ Scene makeProjector();
 Scene makeOrrery();
 
 Scene makePendulum();
+/// Three columns of smoke that shadow one another and the wall behind them.
+Scene makeSmoke();
+/// A head of hair in a breath of smoke.
+Scene makeHair();
+/// The glazed nave with a smoking censer.
+Scene makeCenser();
 /// The model of a glTF file, turning once in 12.5 s. Throws host::Error or std::runtime_error.
 Scene makeTurntable(const std::string& path);
 

@@ -24,6 +24,9 @@ const std::map<std::string, std::function<scenes::Scene()>>& generators() {
       {"projector", scenes::makeProjector},
       {"orrery", scenes::makeOrrery},
       {"pendulum", scenes::makePendulum},
+      {"smoke", scenes::makeSmoke},
+      {"hair", scenes::makeHair},
+      {"censer", scenes::makeCenser},
   };
   return kGenerators;
 }

@@ -1,5 +1,6 @@
 #include "Accessors.h"
 #include "Convert.h"
+#include "Extras.h"
 #include "Layout.h"
 #include "Unroll.h"
 
@@ -176,6 +177,7 @@ void convertMeshes(Document& document, const std::vector<TextureCoordinates>& co
       const TextureCoordinates& uv = coordinates[static_cast<std::size_t>(primitive.material)];
       const int indices = document.json["meshes"][m]["primitives"][p].value("indices", -1);
       if (convertPrimitive(document, source.primitives[p], indices, where, uv, primitive)) {
+        if (primitive.topology == Topology::Lines) primitive.strand = strandOf(document, m, p, primitive);
         mesh.primitives.push_back(std::move(primitive));
       }
     }

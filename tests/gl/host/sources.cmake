@@ -6,4 +6,6 @@ set(TYNDALL_GL_HOST_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/ShadowMapTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SmallScenes.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SmallScenes.h
+  ${CMAKE_CURRENT_LIST_DIR}/SmokeTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/StrandTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SurfaceTest.cpp)

@@ -1,0 +1,24 @@
+// What dims light bit by bit: smoke and strands, and their capture from a light.
+#pragma once
+
+#include "gl/SmokeRenderer.h"
+#include "gl/StrandRenderer.h"
+
+namespace host {
+
+class VolumeRenderer {
+public:
+  /// See SceneRenderer.
+  void set(std::vector<SmokeParticle> smoke, Strands strands);
+  void capture(const tyndall::Light& light, int size);
+
+  void drawStrands(const CameraView& camera, const Illumination& illumination, const RenderTargets& targets);
+  void drawSmoke(const CameraView& camera, const Illumination& illumination, const RenderTargets& targets);
+
+private:
+  std::optional<SmokeRenderer> smoke_; ///< made, and its shaders compiled, when there first is any
+  std::optional<StrandRenderer> strands_;
+  GlFramebuffer withoutAttachments_;
+};
+
+} // namespace host
