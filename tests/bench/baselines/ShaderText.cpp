@@ -11,7 +11,7 @@ namespace bench {
 namespace {
 
 std::ifstream openShader(const std::string& file) {
-  for (const char* folder : {TYNDALL_BASELINE_SHADERS, TYNDALL_EFFECT_SHADERS}) {
+  for (const char* folder : {TYNDALL_BASELINE_SHADERS, TYNDALL_RIVAL_SHADERS, TYNDALL_EFFECT_SHADERS}) {
     std::ifstream stream(std::filesystem::path(folder) / file);
     if (stream) return stream;
   }
@@ -32,9 +32,14 @@ void append(const std::string& file, std::set<std::string>& included, std::strin
 } // namespace
 
 std::string shaderText(const std::string& file) {
-  std::string text = "#version 330 core\n#define UNIFORM_BLOCK(name) layout(std140) uniform name\n";
+  return "#version 330 core\n#define UNIFORM_BLOCK(name) layout(std140) uniform name\n" + shaderBody({file});
+}
+
+std::string shaderBody(const std::vector<std::string>& files) {
+  std::string text;
   std::set<std::string> included;
-  append(file, included, text);
+  for (const std::string& file : files)
+    append(file, included, text);
   return text;
 }
 
