@@ -185,8 +185,7 @@ Status Avsm::State::makeObjects() {
   curves = gl::Texture(gl);
   gl.ActiveTexture(gl::TEXTURE0);
   gl.BindTexture(gl::TEXTURE_2D_ARRAY, curves.name());
-  while (gl.GetError() != gl::NO_ERROR) {
-  }
+  avsm::clearErrors(gl);
   gl.TexStorage3D(gl::TEXTURE_2D_ARRAY, 1, gl::RGBA32UI, config.size, config.size, curveLayersOf(config));
   if (gl.GetError() != gl::NO_ERROR)
     return {StatusCode::OutOfMemory, "GL could not allocate " + std::to_string(curveBytes()) + " bytes for curves"};

@@ -16,6 +16,11 @@ std::uint64_t listsOf(int size, int layers) {
 
 } // namespace
 
+void clearErrors(const gl::Functions& gl) {
+  for (int i = 0; i < 16 && gl.GetError() != gl::NO_ERROR; ++i) {
+  }
+}
+
 std::uint64_t leastBufferBytes(int size, int layers) {
   return sizeof(ListsHeader) + listsOf(size, layers) * std::max(kListBytes, kSegmentBytes);
 }
@@ -55,8 +60,7 @@ std::uint64_t Lists::bytes() const {
 
 Status Lists::allocate(const gl::Buffer& buffer, std::uint64_t bytes) const {
   gl_.BindBuffer(gl::SHADER_STORAGE_BUFFER, buffer.name());
-  while (gl_.GetError() != gl::NO_ERROR) {
-  }
+  clearErrors(gl_);
   gl_.BufferData(gl::SHADER_STORAGE_BUFFER, static_cast<gl::Sizeiptr>(bytes), nullptr, gl::DYNAMIC_COPY);
   if (gl_.GetError() == gl::NO_ERROR) return {};
   return {StatusCode::OutOfMemory, "GL could not allocate " + std::to_string(bytes) + " bytes for captured segments"};

@@ -69,6 +69,9 @@ private:
   std::size_t sent_ = 0;
 };
 
+/// Forgets errors of the engine's, of which GL keeps some; a context that is lost has one more each time.
+void clearErrors(const gl::Functions& gl);
+
 /// Bytes of the largest storage buffer that lists of this size need at least.
 std::uint64_t leastBufferBytes(int size, int layers);
 

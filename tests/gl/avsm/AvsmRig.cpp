@@ -113,7 +113,7 @@ AvsmRig::AvsmRig(tyndall::AvsmConfig config) : config_(std::move(config)) {
   avsm_ = std::move(result.avsm);
 }
 
-void AvsmRig::capture(const std::vector<Captured>& segments) {
+void captureInto(tyndall::Avsm& avsm, const std::vector<Captured>& segments) {
   struct Input {
     glm::ivec4 texel;
     glm::vec4 values;
@@ -122,18 +122,21 @@ void AvsmRig::capture(const std::vector<Captured>& segments) {
   inputs.reserve(segments.size());
   for (const Captured& s : segments)
     inputs.push_back({glm::ivec4(s.texel, 0), glm::vec4(s.entry, s.exit, s.transmittance, 0)});
-  const tyndall::Status began = avsm_->begin(2);
+  const tyndall::Status began = avsm.begin(2);
   INFO(began.message);
   REQUIRE(began);
-  if (!inputs.empty()) {
-    const ComputeProgram program(
-        std::string("#version 430 core\n#define TYNDALL_LISTS_BINDING 2\n#define TYNDALL_SEGMENTS_BINDING 3\n") +
-        tyndall::avsmCaptureSource() + kCapture);
-    const host::GlBuffer buffer = host::makeBuffer();
-    fillBuffer(buffer, kInput, inputs.size() * sizeof(Input), inputs.data());
-    program.run(inputs.size());
-    unbind();
-  }
+  if (inputs.empty()) return;
+  const ComputeProgram program(
+      std::string("#version 430 core\n#define TYNDALL_LISTS_BINDING 2\n#define TYNDALL_SEGMENTS_BINDING 3\n") +
+      tyndall::avsmCaptureSource() + kCapture);
+  const host::GlBuffer buffer = host::makeBuffer();
+  fillBuffer(buffer, kInput, inputs.size() * sizeof(Input), inputs.data());
+  program.run(inputs.size());
+  unbind();
+}
+
+void AvsmRig::capture(const std::vector<Captured>& segments) {
+  captureInto(*avsm_, segments);
   const tyndall::Status resolved = avsm_->resolve();
   INFO(resolved.message);
   REQUIRE(resolved);

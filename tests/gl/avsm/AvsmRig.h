@@ -29,13 +29,16 @@ double curveAt(const Curve& curve, double depth, bool exponential = false);
 /// Mean absolute difference between a curve and the segments it is made of, over [0, 1] in depth.
 double curveError(const Curve& curve, const std::vector<reference::Segment>& segments);
 
+/// begin(), and a compute shader that captures these, in an order of the driver's.
+void captureInto(tyndall::Avsm& avsm, const std::vector<Captured>& segments);
+
 class AvsmRig {
 public:
   explicit AvsmRig(tyndall::AvsmConfig config = {});
 
   tyndall::Avsm& avsm() { return *avsm_; }
 
-  /// begin(), a compute shader that captures these, in an order of the driver's, and resolve().
+  /// captureInto(), resolve(), and waits.
   void capture(const std::vector<Captured>& segments);
 
   /// The curves' texture as it is.

@@ -35,6 +35,8 @@ FakeContext::~FakeContext() {
 
 CreateResult FakeContext::create() const { return Effect::create({fakeLoader, PassTiming::Off}); }
 
+GlLoader FakeContext::loader() const { return fakeLoader; }
+
 const std::set<std::string>& FakeContext::askedFor() const { return askedNames; }
 
 } // namespace tests

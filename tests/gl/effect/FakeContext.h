@@ -25,6 +25,7 @@ public:
   FakeContext& operator=(const FakeContext&) = delete;
 
   tyndall::CreateResult create() const;
+  tyndall::GlLoader loader() const;              ///< for others than an effect
   const std::set<std::string>& askedFor() const; ///< names that the loader was asked for
 };
 

@@ -14,6 +14,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/FakeContext.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameTexturesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameValuesTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/GlState.cpp
   ${CMAKE_CURRENT_LIST_DIR}/LowRankTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ReuseFrameTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ReuseMeshTest.cpp
