@@ -41,7 +41,7 @@ uniform sampler2D glassDepth;
 uniform sampler2DArray glassColourArray;
 uniform sampler2DArray glassDepthArray;
 #ifdef TYNDALL_CURVE_NODES
-uniform TyndallCurves curves;
+uniform usampler2DArray curves;
 uniform vec4 curveDepth[kMaxViews]; // linear depth of a relative position
 uniform float curveSize;            // texels per side
 #endif

@@ -78,7 +78,7 @@ TEST_CASE("avsm: look-up compiles from #version 330 on, for all curves") {
         std::string text = version + define("TYNDALL_CURVE_NODES", nodes) + define("TYNDALL_CURVE_PACKED", bits & 1);
         if ((bits & 2) != 0) text += define("TYNDALL_CURVE_EXPONENTIAL", 1);
         text += avsmLookupSource();
-        text += "uniform TyndallCurves curves;\n";
+        text += "uniform usampler2DArray curves;\n";
         const std::string value = "tyndallTransmittanceBilinear(curves, vec2(0.5), 0, 0.5) + "
                                   "tyndallTransmittance(curves, ivec3(0), 0.5)";
         checkCompiles(GL_FRAGMENT_SHADER, text + "out vec4 colour;\nvoid main() { colour = vec4(" + value + "); }\n");
