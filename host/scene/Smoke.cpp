@@ -45,8 +45,8 @@ struct Eddy {
 /// Two eddies of each of three sizes. Together they carry no farther than the emitter's turbulence; each turns a whole
 /// number of times in a life, so that the smoke repeats.
 std::array<Eddy, 6> eddiesOf(const SmokeEmitter& emitter) {
-  constexpr double kShares[] = {0.58, 0.28, 0.14};
-  constexpr double kLengths[] = {0.9, 0.42, 0.2}; ///< of the emitter's height
+  constexpr double kShares[] = {0.50, 0.30, 0.20};
+  constexpr double kLengths[] = {0.8, 0.36, 0.16}; ///< of the emitter's height
   std::array<Eddy, 6> eddies;
   for (int i = 0; i < 6; ++i) {
     const int size = i / 2;

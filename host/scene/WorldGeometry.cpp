@@ -23,8 +23,8 @@ void append(WorldGeometry& geometry, const Primitive& primitive, const glm::dmat
 }
 
 void appendBox(WorldGeometry& geometry, const Bounds& box, const glm::dmat4& worldFromBox) {
-  constexpr std::uint32_t kFaces[] = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
-                                      2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
+  constexpr std::uint32_t kFaces[] = {0, 3, 1, 0, 2, 3, 4, 7, 6, 4, 5, 7, 0, 5, 4, 0, 1, 5,
+                                      2, 7, 3, 2, 6, 7, 0, 6, 2, 0, 4, 6, 1, 7, 5, 1, 3, 7}; // fronts outside
   const auto first = static_cast<std::uint32_t>(geometry.points.size());
   for (int corner = 0; corner < 8; ++corner) {
     const glm::bvec3 pick((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0);

@@ -13,7 +13,7 @@ namespace {
 const glm::dvec3 kHead{0, 1.62, 0};
 constexpr double kSkull = 0.105; ///< radius, metres
 constexpr int kTufts = 900;
-constexpr int kPerTuft = 26;
+constexpr int kPerTuft = 32;
 constexpr int kSteps = 22; ///< segments of a strand
 
 /// The i-th of n places that lie evenly on the sphere: Fibonacci's lattice.
@@ -36,11 +36,14 @@ struct Tuft {
   double curl = 0; ///< radius of the wave
 };
 
-/// A strand leaves the scalp, bends down under its weight and waves with its tuft.
+/// A strand leaves the scalp flat, combed away from the crown with a whirl, bends down under its weight and waves with
+/// its tuft.
 void grow(Strands& strands, const Tuft& tuft, const glm::dvec3& out, double length, double wave, Random& random) {
   const double step = length / kSteps;
   glm::dvec3 at = skullAt(out);
-  glm::dvec3 heading = glm::normalize(out + glm::dvec3(0, 0.25, 0));
+  const glm::dvec3 crown = glm::normalize(glm::dvec3(0, 1, -0.45));
+  const glm::dvec3 away = glm::normalize(out - crown * (glm::dot(out, crown) - 1e-6));
+  glm::dvec3 heading = glm::normalize(away + 0.4 * glm::cross(crown, away) + 0.3 * out);
   const glm::dvec3 side = glm::normalize(glm::cross(heading, glm::dvec3(0.3, 1, 0.2)));
   const double stiffness = random.between(0.17, 0.27);
   strands.points.push_back(at - 0.004 * out);
@@ -93,10 +96,10 @@ void head(MeshBuilder& mesh, int skin, int cloth) {
   mesh.frame(glm::scale(glm::translate(glm::dmat4(1), kHead), {0.9, 1.16, 1.04}));
   mesh.sphere({0, 0, 0}, kSkull, 96);
   mesh.frame(glm::dmat4(1));
-  mesh.lathe({{0.056, 1.30}, {0.050, 1.40}, {0.052, 1.48}, {0.060, 1.56}}, 48);
+  mesh.lathe({{0.062, 1.28}, {0.050, 1.40}, {0.052, 1.48}, {0.060, 1.56}}, 48);
   mesh.material(cloth);
-  mesh.frame(glm::scale(glm::translate(glm::dmat4(1), {0, 1.19, -0.01}), {1.0, 0.62, 0.55}));
-  mesh.sphere({0, 0, 0}, 0.24, 96);
+  mesh.frame(glm::scale(glm::translate(glm::dmat4(1), {0, 1.17, -0.01}), {1.0, 0.50, 0.50}));
+  mesh.sphere({0, 0, 0}, 0.33, 96);
   mesh.frame(glm::dmat4(1)).torus({0, 1.335, 0}, 0.062, 0.012, 64, 16);
 }
 
@@ -109,15 +112,15 @@ Smoke breath() {
   Smoke smoke;
   smoke.name = "breath";
   smoke.position = {0.40, 1.20, 0.10};
-  smoke.particles = 260;
-  smoke.radius = 0.022;
+  smoke.particles = 420;
+  smoke.radius = 0.013;
   smoke.growth = 4;
   smoke.density = 9;
-  smoke.spread = 0.02;
+  smoke.spread = 0.012;
   smoke.height = 0.85;
   smoke.rise = 0.14;
   smoke.drift = {-0.030, 0, 0.004};
-  smoke.turbulence = 0.16;
+  smoke.turbulence = 0.20;
   smoke.albedo = {0.88, 0.90, 0.94};
   smoke.seed = 5;
   return smoke;
@@ -128,12 +131,12 @@ Smoke breath() {
 Scene makeHair() {
   Scene scene;
   scene.grid = 1.0 / 1048576;
-  scene.camera = {{0.66, 1.74, -1.22}, {0.03, 1.555, 0}, 31, 0.02, 20};
+  scene.camera = {{0.54, 1.75, -0.95}, {0.04, 1.55, 0}, 31, 0.02, 20};
   Light key;
   key.kind = LightKind::Spot;
   key.name = "key";
   key.colour = {1.0, 0.90, 0.76};
-  key.intensity = 16;
+  key.intensity = 5;
   key.position = {1.55, 2.15, 0.25};
   key.direction = kHead - key.position - glm::dvec3(0, 0.06, 0);
   key.innerConeAngle = 16;
@@ -141,18 +144,18 @@ Scene makeHair() {
   Light rim = key;
   rim.name = "rim";
   rim.colour = {0.62, 0.78, 1.0};
-  rim.intensity = 9;
+  rim.intensity = 4.5;
   rim.position = {-1.25, 1.95, 0.15};
   rim.direction = kHead - rim.position;
   scene.lights = {key, rim};
-  scene.constituents = {{"henyey-greenstein", glm::dvec3(0.035), 0.4}};
+  scene.constituents = {{"henyey-greenstein", glm::dvec3(0.014), 0.4}};
   scene.absorption = glm::dvec3(0.002);
   scene.sky = {0.42, 0.43, 0.46};
 
   const int skin = scene.add({"skin", {0.62, 0.42, 0.32}});
   const int cloth = scene.add({"cloth", {0.10, 0.12, 0.16}});
-  const int paper = scene.add({"paper", {0.50, 0.50, 0.52}});
-  const int strand = scene.add({"hair", {0.16, 0.065, 0.028}});
+  const int paper = scene.add({"paper", {0.26, 0.27, 0.29}});
+  const int strand = scene.add({"hair", {0.12, 0.058, 0.022}});
   MeshBuilder mesh(scene);
   head(mesh, skin, cloth);
   booth(mesh, paper);

@@ -13,12 +13,13 @@ constexpr double kBowl = 0.95; ///< height of the coals
 void room(MeshBuilder& mesh, Scene& scene) {
   Masonry stone;
   for (const double tone : {1.0, 0.86, 1.12, 0.94, 1.05})
-    stone.tones.push_back(scene.add({"stone", tone * glm::dvec3(0.42, 0.40, 0.37)}));
+    stone.tones.push_back(scene.add({"stone", tone * glm::dvec3(0.21, 0.20, 0.185)}));
   stone.length = 1.2;
   stone.height = 0.55;
   mesh.frame(glm::translate(glm::dmat4(1), {0, 0, -2.6}));
   wall(mesh, stone, {-11, 11, -0.2, 9, -0.5, 0}, 3);
-  const int pale = scene.add({"pale slabs", {0.36, 0.34, 0.31}}), dark = scene.add({"dark slabs", {0.22, 0.21, 0.20}});
+  const int pale = scene.add({"pale slabs", {0.24, 0.225, 0.205}}),
+            dark = scene.add({"dark slabs", {0.13, 0.125, 0.12}});
   mesh.frame(glm::dmat4(1));
   constexpr double kSlab = 0.75;
   for (int i = -12; i < 12; ++i)
@@ -34,7 +35,7 @@ void brazier(MeshBuilder& mesh, double x, int bronze, int coals) {
   mesh.lathe({{0.34, 0}, {0.34, 0.05}, {0.12, 0.10}, {0.07, 0.22}, {0.10, 0.36}, {0.06, 0.5}, {0.09, 0.62}}, 40);
   mesh.lathe({{0.09, 0.62}, {0.30, 0.74}, {0.38, kBowl - 0.06}, {0.42, kBowl}, {0.38, kBowl}, {0.30, 0.84}, {0, 0.78}},
              40);
-  mesh.torus({0, kBowl, 0}, 0.40, 0.025, 40, 10);
+  mesh.torus({0, kBowl - 0.01, 0}, 0.41, 0.03, 64, 12);
   mesh.material(coals).lathe({{0.30, 0.84}, {0.22, 0.87}, {0.12, 0.88}, {0, 0.885}}, 24);
 }
 
@@ -42,15 +43,15 @@ Smoke column(int index) {
   Smoke smoke;
   smoke.name = "smoke " + std::to_string(index);
   smoke.position = {(index - 1) * kApart, kBowl - 0.02, 0};
-  smoke.particles = 320;
-  smoke.radius = 0.17;
-  smoke.growth = 3.2;
-  smoke.density = 1.5;
+  smoke.particles = 620;
+  smoke.radius = 0.12;
+  smoke.growth = 3.6;
+  smoke.density = 1.6;
   smoke.spread = 0.16;
-  smoke.height = 4.4;
+  smoke.height = 4.8;
   smoke.rise = 0.7;
   smoke.drift = {0.04, 0, 0.02};
-  smoke.turbulence = 0.75;
+  smoke.turbulence = 1.0;
   smoke.albedo = {0.86, 0.87, 0.90};
   smoke.seed = 11 + index;
   return smoke;

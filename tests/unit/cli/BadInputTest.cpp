@@ -75,6 +75,10 @@ TEST_CASE("tyndall-render takes only whole numbers within their ranges") {
     checkUsageError({"triangle.gltf", "--shadow-size", size}, "--shadow-size " + size);
   for (const std::string count : {"0", "5", "two"})
     checkUsageError({"triangle.gltf", "--cascades", count}, "--cascades " + count);
+  for (const std::string size : {"0", "4097", "1.5"})
+    checkUsageError({"triangle.gltf", "--avsm-size", size}, "--avsm-size " + size);
+  for (const std::string nodes : {"0", "6", "20"})
+    checkUsageError({"triangle.gltf", "--avsm-nodes", nodes}, "--avsm-nodes " + nodes);
   for (const std::string count : {"0", "9", "1.5", "-2"})
     checkUsageError({"triangle.gltf", "--supersample", count}, "--supersample " + count);
   checkUsageError({"triangle.gltf", "--size", "4097x10", "--supersample", "4"}, "--supersample 4");

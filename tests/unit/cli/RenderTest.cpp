@@ -112,6 +112,33 @@ TEST_CASE("tyndall-render writes statistics") {
   CHECK(stats.size() == 11);
 }
 
+TEST_CASE("the statistics tell what the shadows of smoke cost, if there are any") {
+  const tests::ToolFolder folder;
+  folder.write("smoke.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
+    "nodes": [{"extras": {"tyndall": {"smoke": {"particles": 20}}}}]})");
+  const auto run = [&](const Arguments& more) {
+    Arguments all = {"smoke.gltf", "--eye",         "0,1,5", "--target", "0,1,0", "--size",
+                     "32x32",      "--shadow-size", "16",    "--stats",  "s.json"};
+    all.insert(all.end(), more.begin(), more.end());
+    const tests::ToolResult result = folder.run(all);
+    CAPTURE(result.err);
+    REQUIRE(result.exitCode == 0);
+    return result;
+  };
+  run({"--avsm-size", "32", "--avsm-nodes", "4"});
+  const nlohmann::json avsm = nlohmann::json::parse(folder.read("s.json")).at("avsm");
+  REQUIRE(avsm.size() == 1);
+  CHECK(avsm[0].at("light") == 0);
+  CHECK(avsm[0].at("segments") > 100);
+  CHECK(avsm[0].at("lost") == 0);
+  CHECK(avsm[0].at("list_bytes") > 32 * 32 * 32);
+  CHECK(avsm[0].at("curve_bytes") == 32 * 32 * 16);
+  CHECK(avsm[0].at("capture_ms") > 0);
+  CHECK_FALSE(avsm[0].at("passes").empty());
+  CHECK(run({"--no-avsm"}).err.find("smoke and strands") == std::string::npos);
+  CHECK_FALSE(nlohmann::json::parse(folder.read("s.json")).contains("avsm"));
+}
+
 TEST_CASE("with --supersample an EXR keeps every pixel and a PNG their mean") {
   const tests::ToolFolder folder;
   REQUIRE(
@@ -190,9 +217,9 @@ TEST_CASE("help and version answer on standard output") {
   const tests::ToolResult help = folder.run({"--help"});
   CHECK(help.exitCode == 0);
   CHECK(help.err.empty());
-  for (const char* option :
-       {"--camera", "--eye", "--sun", "--size", "--supersample", "--profile", "--technique", "--medium",
-        "--shadow-size", "--frames", "--repeat", "--context", "--out", "--stats", "1e30"})
+  for (const char* option : {"--camera", "--eye", "--sun", "--size", "--supersample", "--profile", "--technique",
+                             "--medium", "--shadow-size", "--avsm-size", "--avsm-nodes", "--no-avsm", "--frames",
+                             "--repeat", "--context", "--out", "--stats", "1e30"})
     CHECK(help.out.find(option) != std::string::npos);
   const tests::ToolResult version = folder.run({"--version"});
   CHECK(version.exitCode == 0);
