@@ -3,7 +3,7 @@
 #define TYNDALL_CURVE_ROOM (TYNDALL_CURVE_NODES + 2)
 #include "lib/avsm.glsl"
 #include "lib/avsmCurve.glsl"
-#include "lib/avsmStore.glsl"
+#include "lib/avsmImage.glsl"
 #include "lib/avsmInsert.glsl"
 
 void main() {

@@ -4,7 +4,7 @@
 #define TYNDALL_CURVE_ROOM 32
 #include "lib/avsm.glsl"
 #include "lib/avsmCurve.glsl"
-#include "lib/avsmStore.glsl"
+#include "lib/avsmImage.glsl"
 #include "lib/avsmWalk.glsl"
 
 void keepNodes(uint list) {
