@@ -8,6 +8,6 @@ layout(local_size_x = 8, local_size_y = 8) in;
 void main() {
   ivec3 texel = ivec3(gl_GlobalInvocationID);
   if (any(greaterThanEqual(texel.xy, imageSize(curves).xy))) return;
-  tyndallPadCurve();
+  tyndallEmptyCurve();
   storeCurve(texel);
 }

@@ -9,7 +9,7 @@
 void main() {
   ivec3 texel = ownTexel();
   if (isOutside(texel)) return;
-  for (int i = 0; i < TYNDALL_CURVE_ROOM; ++i) tyndallCurve[i] = vec2(1.0);
+  tyndallEmptyCurve();
   for (uint at = tyndallLists[listOf(texel)].head; at != kTyndallEnd; at = tyndallSegments[at].w) tyndallInsertSegment(segmentAt(at));
   tyndallPadCurve();
   storeCurve(texel);

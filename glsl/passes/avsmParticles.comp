@@ -66,7 +66,7 @@ void main() {
   View view = views[texel.z];
   vec2 low = vec2(8u * gl_WorkGroupID.xy);
   Ray ray = rayOf(view, vec2(texel.xy) + 0.5);
-  for (int i = 0; i < TYNDALL_CURVE_ROOM; ++i) tyndallCurve[i] = vec2(1.0);
+  tyndallEmptyCurve();
   for (int i = 0; i < kTyndallTexelsOfCurve; ++i) tyndallTakeTexel(kTyndallNodesOfTexel * i, imageLoad(curves, placeOf(texel, i)));
   tyndallFindUsed();
   uint own = gl_LocalInvocationIndex;

@@ -31,6 +31,7 @@ void tyndallInsertAt(ivec3 texel, float entry, float exit, float transmittance) 
   ivec3 first = ivec3(texel.xy, texel.z * kTyndallTexelsOfCurve);
   if (!tyndallSegment(entry, exit, transmittance, segment)) return;
   if (any(lessThan(texel, ivec3(0))) || any(greaterThanEqual(first, imageSize(tyndallCurves)))) return;
+  tyndallEmptyCurve();
   for (int i = 0; i < kTyndallTexelsOfCurve; ++i) tyndallTakeTexel(kTyndallNodesOfTexel * i, imageLoad(tyndallCurves, first + ivec3(0, 0, i)));
   tyndallFindUsed();
   tyndallInsertSegment(segment);
@@ -43,6 +44,7 @@ layout(location = 0) inout TyndallTexel tyndallTexels[kTyndallTexelsOfCurve];
 void tyndallInsert(float entry, float exit, float transmittance) {
   vec3 segment;
   if (!tyndallSegment(entry, exit, transmittance, segment)) return;
+  tyndallEmptyCurve();
   for (int i = 0; i < kTyndallTexelsOfCurve; ++i) tyndallTakeTexel(kTyndallNodesOfTexel * i, tyndallTexels[i]);
   tyndallFindUsed();
   tyndallInsertSegment(segment);

@@ -103,6 +103,14 @@ bool hasAvsm() {
   return false;
 }
 
+bool hasExtension(const std::string& name) {
+  GLint count = 0;
+  gl().GetIntegerv(GL_NUM_EXTENSIONS, &count);
+  for (GLint i = 0; i < count; ++i)
+    if (name == reinterpret_cast<const char*>(gl().GetStringi(GL_EXTENSIONS, static_cast<GLuint>(i)))) return true;
+  return false;
+}
+
 double curveAt(const Curve& curve, double depth, bool exponential) {
   glm::dvec2 before(0, 1);
   for (const glm::dvec2& node : curve) {

@@ -14,6 +14,8 @@ namespace tests {
 /// True if the test context is new enough; else says that the test is skipped.
 bool hasAvsm();
 
+bool hasExtension(const std::string& name);
+
 /// A segment as it is given to tyndallCapture().
 struct Captured {
   glm::ivec3 texel{0};

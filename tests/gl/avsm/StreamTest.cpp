@@ -3,7 +3,6 @@
 #include "gl/effect/GlState.h"
 
 #include <catch2/catch.hpp>
-#include <cstring>
 #include <random>
 
 using namespace tyndall;
@@ -28,12 +27,7 @@ AvsmConfig configOf(int nodes, bool packed) {
 
 bool hasFetch() {
   if (!tests::hasAvsm()) return false;
-  GLint count = 0;
-  gl().GetIntegerv(GL_NUM_EXTENSIONS, &count);
-  for (GLint i = 0; i < count; ++i)
-    if (std::strcmp(reinterpret_cast<const char*>(gl().GetStringi(GL_EXTENSIONS, static_cast<GLuint>(i))),
-                    "GL_EXT_shader_framebuffer_fetch") == 0)
-      return true;
+  if (tests::hasExtension("GL_EXT_shader_framebuffer_fetch")) return true;
   WARN("skipped: the context has no GL_EXT_shader_framebuffer_fetch");
   return false;
 }
