@@ -1,6 +1,7 @@
 # Writes OUTPUT, a C++ file that holds every shader of SHADERS (names relative to ROOT) with its #include lines resolved,
 # each file at most once per shader, and without lines of comments: C++ promises no more than 65,536 characters.
-# Run as a script: cmake -DROOT=… -DOUTPUT=… "-DSHADERS=a;b" -P EmbedShaders.cmake
+# Those of public/ are written to the directory PUBLIC, too, with their comments, for engines that read files.
+# Run as a script: cmake -DROOT=… -DOUTPUT=… -DPUBLIC=… "-DSHADERS=a;b" -P EmbedShaders.cmake
 cmake_minimum_required(VERSION 3.22)
 
 # Sets RESULT in the caller to the text of FILE with its includes in place; INCLUDED lists the files already in it.
@@ -25,6 +26,9 @@ set(code "// Generated from glsl/ by EmbedShaders.cmake.\n#include \"gl/ShaderSo
 foreach(shader IN LISTS SHADERS)
   set(seen "")
   resolve("${shader}" text seen)
+  if(shader MATCHES "^public/(.*)")
+    file(WRITE "${PUBLIC}/${CMAKE_MATCH_1}" "${text}")
+  endif()
   string(REGEX REPLACE "\n *//[^\n]*" "" text "${text}")
   string(APPEND code "    {\"${shader}\", R\"glsl(${text})glsl\"},\n")
 endforeach()

@@ -4,6 +4,11 @@
 vec2 tyndallCurve[TYNDALL_CURVE_ROOM];
 int tyndallUsed = 0;
 
+void tyndallEmptyCurve() {
+  for (int i = 0; i < TYNDALL_CURVE_ROOM; ++i) tyndallCurve[i] = vec2(1.0);
+  tyndallUsed = 0;
+}
+
 // Change of the integral, twice, when a node is removed (Salvi 2013, 3.2.1).
 float tyndallArea(vec2 a, vec2 b, vec2 c) { return abs((c.x - a.x) * (c.y - b.y) - (c.x - b.x) * (c.y - a.y)); }
 

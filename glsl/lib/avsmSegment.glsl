@@ -1,5 +1,4 @@
-// What of a segment is in the map. Parts of this directory that public files include are in those when they are installed; an engine's shader may
-// include several of them.
+// What of a segment is in the map; once in a shader that has both avsmCapture and avsmInsert.
 #ifndef TYNDALL_SEGMENT
 #define TYNDALL_SEGMENT
 

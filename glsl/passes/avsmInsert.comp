@@ -3,13 +3,13 @@
 #define TYNDALL_CURVE_ROOM (TYNDALL_CURVE_NODES + 2)
 #include "lib/avsm.glsl"
 #include "lib/avsmCurve.glsl"
-#include "lib/avsmStore.glsl"
+#include "lib/avsmImage.glsl"
 #include "lib/avsmInsert.glsl"
 
 void main() {
   ivec3 texel = ownTexel();
   if (isOutside(texel)) return;
-  for (int i = 0; i < TYNDALL_CURVE_ROOM; ++i) tyndallCurve[i] = vec2(1.0);
+  tyndallEmptyCurve();
   for (uint at = tyndallLists[listOf(texel)].head; at != kTyndallEnd; at = tyndallSegments[at].w) tyndallInsertSegment(segmentAt(at));
   tyndallPadCurve();
   storeCurve(texel);

@@ -4,7 +4,7 @@
 #define TYNDALL_CURVE_ROOM 32
 #include "lib/avsm.glsl"
 #include "lib/avsmCurve.glsl"
-#include "lib/avsmStore.glsl"
+#include "lib/avsmImage.glsl"
 #include "lib/avsmWalk.glsl"
 
 void keepNodes(uint list) {
@@ -84,7 +84,7 @@ void main() {
   ivec3 texel = ownTexel();
   if (isOutside(texel)) return;
   uint list = listOf(texel);
-  for (int i = 0; i < TYNDALL_CURVE_ROOM; ++i) tyndallCurve[i] = vec2(1.0);
+  tyndallEmptyCurve();
   if (tyndallLists[list].count > 0u) {
     keepNodes(list);
     if (tyndallUsed > 2) fitValues(list);

@@ -6,6 +6,13 @@
 //     avsm->resolve();                      // lists -> curves
 //     frame.lights[0].curves = avsm->curves();
 //
+// Or in a fixed memory, each segment inserted as it comes (the paper's 4.3):
+//
+//     avsm->beginStreaming();               // curves through which all light passes
+//     avsm->drawParticles(light, smoke);    // spheres from a buffer of the engine's; any number of calls
+//     avsm->bindCurves(0);                  // and, or instead, the engine draws: fragments call tyndallInsert() (glsl
+//     avsmInsert) avsm->resolve(); frame.lights[0].curves = avsm->curves();
+//
 // The map has the light's shadow views, at a size of its own. Depth in it is linear along the view, 0 at its near and 1
 // at its far plane. All functions need the GL context current that create() saw: OpenGL 4.3 core or later.
 #pragma once
@@ -14,11 +21,11 @@
 
 namespace tyndall {
 
-/// How a curve is made of a texel's segments.
+/// How a curve is made of a texel's captured segments.
 enum class CurveReduction {
   WholeCurve, ///< of all ends of segments those stay that count most, refitted: the most exact, whatever the order
   Sorted,     ///< the paper's insertion, in the order of depth: the same curve whatever the order of drawing
-  InOrder,    ///< the paper's insertion, as segments came: no sort, may flicker a little
+  InOrder,    ///< the paper's insertion, the segment captured last first: no sort, may flicker a little
 };
 
 struct AvsmConfig {
@@ -37,10 +44,23 @@ struct AvsmConfig {
 /// About the last resolve(). Reading it waits for the GPU.
 struct AvsmStatistics {
   std::vector<PassStatistics> passes;
-  std::uint64_t segments = 0;   ///< captured
+  std::uint64_t segments = 0;   ///< captured; 0 of what was streamed
   std::uint64_t lost = 0;       ///< of these not kept, for want of memory or because over 4096 met in one texel
   std::uint64_t listBytes = 0;  ///< GL memory of lists
   std::uint64_t curveBytes = 0; ///< and of curves
+};
+
+/// Spheres of an even medium in a GL buffer, as smoke that an engine simulates. A ray that runs a length l through one
+/// lets exp(-density l) of the light through. Spheres overlap freely: what they let through multiplies.
+struct AvsmParticles {
+  /// Name of a buffer, not mapped but persistently. A particle is five floats: its centre's x, y, z and radius in world
+  /// units, and its density, which is the extinction coefficient in 1/world unit: -log(t) / (2 radius) if the share t
+  /// is to come through its centre. One whose radius or density is not above 0, or not a number, is left out.
+  std::uint32_t buffer = 0;
+  std::uint64_t offset = 0;  ///< bytes to the first particle, a multiple of 4
+  std::uint32_t stride = 20; ///< bytes from one particle to the next, a multiple of 4 from 20 to 256
+  std::uint32_t count = 0;   ///< particles, all in the buffer
+  Vec3 origin = {0, 0, 0};   ///< world position that the centres are relative to: near them, floats are exact
 };
 
 struct AvsmResult;
@@ -56,11 +76,32 @@ public:
   /// buffers `firstBinding` and the next, where they stay until the engine binds others.
   Status begin(std::uint32_t firstBinding = 0);
 
-  /// Makes the curves of what was captured since begin(). GL state on return equals GL state on entry.
+  /// Instead of begin(): makes curves through which all light passes, into which segments are inserted as they come
+  /// (Salvi et al. 2013, 4.1), in the order of drawing, whatever AvsmConfig::reduction says. No more memory is needed
+  /// than that of the curves. GL state on return equals GL state on entry.
+  Status beginStreaming();
+
+  /// After beginStreaming(): inserts particles, seen through the light's shadow views, each in a layer's place, in
+  /// the order of the buffer (4.3; a tile of texels walks through all of them). The nearer to the light the first, the
+  /// better the curves: in the order of depth they are those of CurveReduction::Sorted. Packed curves are rounded to 16
+  /// bits after each 32,768 particles and at the end. Nothing is drawn unless the status is Ok; it is InvalidFrame for
+  /// a field that breaks its rule, a light without shadow views or with more than the map has layers, and a view for
+  /// which avsmDepth() fails. GL state on return equals GL state on entry.
+  Status drawParticles(const Light& light, const AvsmParticles& particles);
+
+  /// After beginStreaming(): binds as draw framebuffer one whose colour attachments are the curves of a layer, for
+  /// shaders that include avsmInsert and call tyndallInsert(), which needs GL_EXT_shader_framebuffer_fetch. It stays
+  /// until the engine binds another; no other state is changed: the viewport should be (0, 0, size, size), blending,
+  /// depth and stencil test off, all colours written. InvalidFrame for a layer that the map does not have.
+  Status bindCurves(int layer);
+
+  /// Makes the curves of what was captured since begin(), or ends what beginStreaming() began. GL state on return
+  /// equals GL state on entry.
   Status resolve();
 
   /// The curves, for Light::curves and for shaders that include avsmLookup. Their texture is 0 while nothing is known
-  /// to be captured: nothing dims the light.
+  /// to be captured: nothing dims the light. After beginStreaming() it is never 0, so that an engine can bind it as an
+  /// image, too (glsl avsmInsert).
   AvsmCurves curves() const;
 
   AvsmStatistics statistics();
@@ -77,13 +118,14 @@ struct AvsmResult {
 };
 
 /// The depth of an AVSM as a function of a world position p: dot(depth.xyz, p) + depth.w, 0 at the near and 1 at the
-/// far plane of one of the light's shadow views. Fails for a view that the light does not have, a matrix that is
-/// singular or has its far plane at infinity.
+/// far plane of one of the light's shadow views. InvalidFrame for a view that the light does not have, a matrix
+/// that is singular or has its far plane at infinity, and a light without a finite direction or position.
 Status avsmDepth(const Light& light, int view, std::array<double, 4>& depth);
 
-/// The text of avsmCapture and avsmLookup, for engines that build shaders from strings. Installed as files, too, in
-/// share/tyndall/glsl.
+/// The text of avsmCapture, avsmInsert and avsmLookup, for engines that build shaders from strings. Installed as files,
+/// too, in share/tyndall/glsl.
 const char* avsmCaptureSource();
+const char* avsmInsertSource();
 const char* avsmLookupSource();
 
 } // namespace tyndall

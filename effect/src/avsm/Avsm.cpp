@@ -3,13 +3,14 @@
 #include "LoadFunctions.h"
 #include "PassRecorder.h"
 #include "avsm/Lists.h"
+#include "avsm/Particles.h"
 #include "avsm/StorageGuard.h"
 #include "gl/Program.h"
 #include "gl/ShaderSources.h"
 #include "gl/StateGuard.h"
 #include "optics/Matrices.h"
 
-#include <cmath>
+#include <algorithm>
 #include <utility>
 
 // A frame's curves (Salvi et al. 2013). Boxes are passes:
@@ -18,6 +19,10 @@
 //   lists --> [avsmSort] --> lists in the order of entries --> [avsmSort, exits] --> and of exits
 //   WholeCurve:       lists in both orders --> [avsmReduce] --> curves
 //   Sorted, InOrder:  lists --> [avsmInsert] --> curves
+//
+// Or as segments come:
+//
+//   [avsmEmpty] --> curves --> [avsmParticles] or the engine's shaders, avsmInsert.glsl --> curves
 //
 namespace tyndall {
 
@@ -63,18 +68,28 @@ Status checkLimits(const gl::Functions& gl, const AvsmConfig& config) {
 
 // What a function of OpenGL 4.3 that is missing is called; empty if none is.
 std::string missingFunction(const gl::Functions& gl) {
-  const std::pair<const char*, bool> all[] = {
-      {"glDispatchCompute", gl.DispatchCompute},     {"glMemoryBarrier", gl.MemoryBarrier},
-      {"glBindImageTexture", gl.BindImageTexture},   {"glTexStorage3D", gl.TexStorage3D},
-      {"glBufferSubData", gl.BufferSubData},         {"glClearBufferSubData", gl.ClearBufferSubData},
-      {"glCopyBufferSubData", gl.CopyBufferSubData}, {"glFenceSync", gl.FenceSync},
-      {"glClientWaitSync", gl.ClientWaitSync},       {"glDeleteSync", gl.DeleteSync}};
+  const std::pair<const char*, bool> all[] = {{"glDispatchCompute", gl.DispatchCompute},
+                                              {"glMemoryBarrier", gl.MemoryBarrier},
+                                              {"glBindImageTexture", gl.BindImageTexture},
+                                              {"glTexStorage3D", gl.TexStorage3D},
+                                              {"glBufferSubData", gl.BufferSubData},
+                                              {"glClearBufferSubData", gl.ClearBufferSubData},
+                                              {"glCopyBufferSubData", gl.CopyBufferSubData},
+                                              {"glFenceSync", gl.FenceSync},
+                                              {"glClientWaitSync", gl.ClientWaitSync},
+                                              {"glDeleteSync", gl.DeleteSync},
+                                              {"glFramebufferTextureLayer", gl.FramebufferTextureLayer}};
   for (const auto& [name, known] : all)
     if (!known) return name;
   return {};
 }
 
 constexpr int kGroup = 8; // texels across and up a work group (lib/avsm.glsl)
+
+// Whatever may use curves, or lists, next.
+constexpr gl::Bitfield kBarriers = gl::SHADER_STORAGE_BARRIER_BIT | gl::TEXTURE_FETCH_BARRIER_BIT |
+                                   gl::TEXTURE_UPDATE_BARRIER_BIT | gl::SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                                   gl::FRAMEBUFFER_BARRIER_BIT;
 
 } // namespace
 
@@ -87,15 +102,21 @@ struct Avsm::State {
   PassRecorder recorder;
   std::unique_ptr<avsm::Lists> lists;
   gl::Texture curves;
+  gl::Buffer particlesBlock;
+  gl::Framebuffer framebuffer; // of a layer's curves, once asked for
   std::uint64_t version = 0;
-  bool began = false;
+  enum class Began { Nothing, Capture, Streaming } began = Began::Nothing;
+  bool streamed = false;  // what was resolved last
   bool mayBeEmpty = true; // the newest frame that is known was, or none is known
   bool holds = false;     // the curves may hold anything
 
   Status makeCurves();
   Status makeObjects();
-  Status run(const std::string& name, const std::string& file, const gl::Definitions& definitions, int firstRun = 0,
-             int lastRun = 0);
+  Status checkStreaming(const char* function) const;
+  using Uniforms = std::vector<std::pair<const char*, gl::Int>>;
+  Status run(const std::string& name, const std::string& file, const gl::Definitions& definitions,
+             const Uniforms& uniforms = {}, int layers = 0);
+  Status insertParticles(const AvsmParticles& particles, int views);
   Status makeOrder();
   std::uint64_t curveBytes() const {
     return std::uint64_t{16} * static_cast<std::uint64_t>(config.size) * static_cast<std::uint64_t>(config.size) *
@@ -132,25 +153,31 @@ Status Avsm::begin(std::uint32_t firstBinding) {
                                            ": this and the next must be below this context's " +
                                            std::to_string(bindings) + " storage buffer bindings"};
   const avsm::BufferGuard guard(state.gl);
-  state.began = false;
+  state.began = State::Began::Nothing;
   state.gl.MemoryBarrier(gl::BUFFER_UPDATE_BARRIER_BIT); // shaders wrote what is emptied
   if (state.lists->receive()) state.mayBeEmpty = state.lists->known().firsts == 0;
   if (Status s = state.lists->empty(); !s) return s;
   state.lists->bind(firstBinding, false);
-  state.began = true;
+  state.began = State::Began::Capture;
   return {};
 }
 
 Status Avsm::resolve() {
   State& state = *state_;
   if (!state.gl.GetString(gl::VERSION)) return {StatusCode::NoContext, "no GL context is current on this thread"};
-  if (!state.began) return {StatusCode::InvalidFrame, "Avsm::resolve needs a begin() before it"};
-  state.began = false;
+  if (state.began == State::Began::Nothing)
+    return {StatusCode::InvalidFrame, "Avsm::resolve needs a begin() or beginStreaming() before it"};
+  state.streamed = state.began == State::Began::Streaming;
+  state.began = State::Began::Nothing;
+  ++state.version;
+  if (state.streamed) {
+    state.gl.MemoryBarrier(kBarriers);
+    return {};
+  }
   const gl::StateGuard guard(state.gl);
   const avsm::StorageGuard storageGuard(state.gl);
   state.recorder.beginFrame();
   state.gl.MemoryBarrier(gl::SHADER_STORAGE_BARRIER_BIT | gl::BUFFER_UPDATE_BARRIER_BIT);
-  ++state.version;
   state.lists->send();
   // Scenes without smoke pay a wait instead of passes; the others do not wait.
   if (state.mayBeEmpty) state.mayBeEmpty = state.lists->wait().firsts == 0;
@@ -164,6 +191,52 @@ Status Avsm::resolve() {
   return status;
 }
 
+Status Avsm::beginStreaming() {
+  State& state = *state_;
+  if (!state.gl.GetString(gl::VERSION)) return {StatusCode::NoContext, "no GL context is current on this thread"};
+  const gl::StateGuard guard(state.gl);
+  const avsm::StorageGuard storageGuard(state.gl);
+  state.began = State::Began::Nothing;
+  state.recorder.beginFrame();
+  state.gl.BindImageTexture(0, state.curves.name(), 0, 1, 0, gl::WRITE_ONLY, gl::RGBA32UI);
+  const Status status = state.run("empty", "passes/avsmEmpty.comp", state.curveDefinitions());
+  state.holds = static_cast<bool>(status);
+  if (status) state.began = State::Began::Streaming;
+  return status;
+}
+
+Status Avsm::drawParticles(const Light& light, const AvsmParticles& particles) {
+  State& state = *state_;
+  if (Status s = state.checkStreaming("drawParticles"); !s) return s;
+  const gl::StateGuard guard(state.gl);
+  const avsm::StorageGuard storageGuard(state.gl);
+  if (Status s = avsm::checkParticles(state.gl, light, particles, state.config.layers); !s) return s;
+  const avsm::ParticlesBlock block = avsm::particlesBlock(light, particles.origin, state.config.size);
+  state.gl.BindBufferBase(gl::UNIFORM_BUFFER, 0, state.particlesBlock.name());
+  state.gl.BufferData(gl::UNIFORM_BUFFER, sizeof block, block.data(), gl::STREAM_DRAW);
+  state.gl.BindImageTexture(0, state.curves.name(), 0, 1, 0, gl::READ_WRITE, gl::RGBA32UI);
+  state.gl.MemoryBarrier(kBarriers);
+  return state.insertParticles(particles, static_cast<int>(light.shadow.views.size()));
+}
+
+Status Avsm::bindCurves(int layer) {
+  State& state = *state_;
+  if (Status s = state.checkStreaming("bindCurves"); !s) return s;
+  if (layer < 0 || layer >= state.config.layers)
+    return {StatusCode::InvalidFrame,
+            "layer is " + std::to_string(layer) + ": the map has " + std::to_string(state.config.layers) + " layers"};
+  if (!state.framebuffer) state.framebuffer = gl::Framebuffer(state.gl);
+  state.gl.BindFramebuffer(gl::DRAW_FRAMEBUFFER, state.framebuffer.name());
+  const int count = curveLayersOf(state.config) / state.config.layers;
+  std::vector<gl::Enum> buffers;
+  for (int i = 0; i < count; ++i) {
+    buffers.push_back(gl::COLOR_ATTACHMENT0 + static_cast<gl::Enum>(i));
+    state.gl.FramebufferTextureLayer(gl::DRAW_FRAMEBUFFER, buffers.back(), state.curves.name(), 0, layer * count + i);
+  }
+  state.gl.DrawBuffers(count, buffers.data());
+  return {};
+}
+
 AvsmCurves Avsm::curves() const {
   const State& state = *state_;
   return {state.holds ? state.curves.name() : 0, state.config.nodes, state.config.packed, state.version};
@@ -172,7 +245,7 @@ AvsmCurves Avsm::curves() const {
 AvsmStatistics Avsm::statistics() {
   State& state = *state_;
   const avsm::BufferGuard guard(state.gl);
-  const avsm::ListsHeader header = state.version > 0 ? state.lists->wait() : avsm::ListsHeader{};
+  const avsm::ListsHeader header = state.version > 0 && !state.streamed ? state.lists->wait() : avsm::ListsHeader{};
   return {state.recorder.collect(), header.captured(), header.lost, state.lists->bytes(), state.curveBytes()};
 }
 
@@ -183,6 +256,7 @@ Status Avsm::State::makeObjects() {
   const avsm::BufferGuard bufferGuard(gl);
   lists = std::make_unique<avsm::Lists>(gl, config.size, config.layers, config.mostListBytes);
   curves = gl::Texture(gl);
+  particlesBlock = gl::Buffer(gl);
   gl.ActiveTexture(gl::TEXTURE0);
   gl.BindTexture(gl::TEXTURE_2D_ARRAY, curves.name());
   avsm::clearErrors(gl);
@@ -195,17 +269,15 @@ Status Avsm::State::makeObjects() {
 }
 
 Status Avsm::State::run(const std::string& name, const std::string& file, const gl::Definitions& definitions,
-                        int firstRun, int lastRun) {
+                        const Uniforms& uniforms, int layers) {
   const gl::Uint program = programs.useCompute(file, definitions);
   if (!program) return {StatusCode::ShaderError, "a shader did not build: " + programs.error()};
-  if (firstRun > 0) {
-    gl.Uniform1i(gl.GetUniformLocation(program, "firstRun"), firstRun);
-    gl.Uniform1i(gl.GetUniformLocation(program, "lastRun"), lastRun);
-  }
+  for (const auto& [uniform, value] : uniforms)
+    gl.Uniform1i(gl.GetUniformLocation(program, uniform), value);
   recorder.run(name, [&] {
     const auto groups = static_cast<gl::Uint>((config.size + kGroup - 1) / kGroup);
-    gl.DispatchCompute(groups, groups, static_cast<gl::Uint>(config.layers));
-    gl.MemoryBarrier(gl::SHADER_STORAGE_BARRIER_BIT | gl::TEXTURE_FETCH_BARRIER_BIT | gl::TEXTURE_UPDATE_BARRIER_BIT);
+    gl.DispatchCompute(groups, groups, static_cast<gl::Uint>(layers > 0 ? layers : config.layers));
+    gl.MemoryBarrier(kBarriers);
     return true;
   });
   return {};
@@ -217,8 +289,36 @@ Status Avsm::State::makeOrder() {
   for (int exits = 0; exits < (withExits ? 2 : 1); ++exits)
     for (const auto& [first, last] : {std::pair(1, 32), std::pair(64, static_cast<int>(avsm::kMostSegments) / 2)}) {
       const std::string name = exits == 1 ? "sort exits" : "sort entries";
-      if (Status s = run(name, "passes/avsmSort.comp", {{"EXITS", exits}}, first, last); !s) return s;
+      if (Status s = run(name, "passes/avsmSort.comp", {{"EXITS", exits}}, {{"firstRun", first}, {"lastRun", last}});
+          !s)
+        return s;
     }
+  return {};
+}
+
+Status Avsm::State::checkStreaming(const char* function) const {
+  if (!gl.GetString(gl::VERSION)) return {StatusCode::NoContext, "no GL context is current on this thread"};
+  if (began != Began::Streaming)
+    return {StatusCode::InvalidFrame, std::string("Avsm::") + function + " needs a beginStreaming() before it"};
+  return {};
+}
+
+Status Avsm::State::insertParticles(const AvsmParticles& particles, int views) {
+  gl::Int alignment = 0;
+  gl.GetIntegerv(gl::SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT, &alignment);
+  for (std::uint32_t first = 0; first < particles.count;) {
+    const std::uint32_t count = std::min(avsm::kMostParticles, particles.count - first);
+    const std::uint64_t at = particles.offset + std::uint64_t{first} * particles.stride;
+    const std::uint64_t start = at - at % static_cast<std::uint64_t>(std::max(alignment, 4));
+    const std::uint64_t bytes = at - start + std::uint64_t{count - 1} * particles.stride + avsm::kParticleBytes;
+    gl.BindBufferRange(gl::SHADER_STORAGE_BUFFER, 0, particles.buffer, static_cast<gl::Intptr>(start),
+                       static_cast<gl::Sizeiptr>(bytes));
+    const Uniforms uniforms = {{"firstFloat", static_cast<gl::Int>((at - start) / 4)},
+                               {"stride", static_cast<gl::Int>(particles.stride / 4)},
+                               {"count", static_cast<gl::Int>(count)}};
+    if (Status s = run("particles", "passes/avsmParticles.comp", curveDefinitions(), uniforms, views); !s) return s;
+    first += count;
+  }
   return {};
 }
 
@@ -240,6 +340,10 @@ Status avsmDepth(const Light& light, int view, std::array<double, 4>& depth) {
   };
   if (view < 0 || view >= static_cast<int>(light.shadow.views.size()))
     return refuse("the light has " + std::to_string(light.shadow.views.size()) + " shadow views");
+  const bool directional = light.kind == LightKind::Directional;
+  const glm::dvec3 from = optics::toGlm(directional ? light.direction : light.position);
+  if (!(glm::length(from) < kInfinity)) return refuse("the light's direction or position must be finite");
+  if (directional && from == glm::dvec3(0)) return refuse("the light's direction must have a length");
   const glm::dmat4 matrix = optics::toGlm(light.shadow.views[static_cast<std::size_t>(view)].clipFromWorld);
   if (!optics::isInvertible(matrix)) return refuse("its matrix must be invertible");
   const optics::DepthPlane plane = optics::linearDepth(light, view);
@@ -249,6 +353,7 @@ Status avsmDepth(const Light& light, int view, std::array<double, 4>& depth) {
 }
 
 const char* avsmCaptureSource() { return shaderSource("public/avsmCapture.glsl"); }
+const char* avsmInsertSource() { return shaderSource("public/avsmInsert.glsl"); }
 const char* avsmLookupSource() { return shaderSource("public/avsmLookup.glsl"); }
 
 } // namespace tyndall

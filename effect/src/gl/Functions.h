@@ -148,6 +148,7 @@ using Sync = void*;
   X(void, BufferSubData, (Enum target, Intptr offset, Sizeiptr size, const void* data), None)                          \
   X(void, ClearBufferSubData,                                                                                          \
     (Enum target, Enum internal, Intptr offset, Sizeiptr size, Enum format, Enum type, const void* data), None)        \
+  X(void, FramebufferTextureLayer, (Enum target, Enum attachment, Uint texture, Int level, Int layer), None)           \
   X(void, CopyBufferSubData, (Enum from, Enum to, Intptr fromOffset, Intptr toOffset, Sizeiptr size), None)            \
   X(Sync, FenceSync, (Enum condition, Bitfield flags), None)                                                           \
   X(Enum, ClientWaitSync, (Sync sync, Bitfield flags, Uint64 nanoseconds), None)                                       \

@@ -69,6 +69,28 @@ void main() {
 }
 )";
 
+constexpr const char* kCaptureLastFirst = R"(
+layout(local_size_x = 1) in;
+struct Segment { ivec4 texel; vec4 values; };
+layout(std430, binding = 6) readonly buffer Input { Segment segments[]; };
+void main() {
+  if (gl_GlobalInvocationID.x > 0u) return;
+  for (int i = segments.length() - 1; i >= 0; --i)
+    tyndallCapture(segments[i].texel.xyz, segments[i].values.x, segments[i].values.y, segments[i].values.z);
+}
+)";
+
+constexpr const char* kInsert = R"(
+layout(local_size_x = 1) in;
+struct Segment { ivec4 texel; vec4 values; };
+layout(std430, binding = 6) readonly buffer Input { Segment segments[]; };
+void main() {
+  if (gl_GlobalInvocationID.x > 0u) return;
+  for (int i = 0; i < segments.length(); ++i)
+    tyndallInsertAt(segments[i].texel.xyz, segments[i].values.x, segments[i].values.y, segments[i].values.z);
+}
+)";
+
 } // namespace
 
 bool hasAvsm() {
@@ -78,6 +100,14 @@ bool hasAvsm() {
   gl().GetIntegerv(GL_MINOR_VERSION, &minor);
   if (10 * major + minor >= 43) return true;
   WARN("skipped: the context is older than OpenGL 4.3");
+  return false;
+}
+
+bool hasExtension(const std::string& name) {
+  GLint count = 0;
+  gl().GetIntegerv(GL_NUM_EXTENSIONS, &count);
+  for (GLint i = 0; i < count; ++i)
+    if (name == reinterpret_cast<const char*>(gl().GetStringi(GL_EXTENSIONS, static_cast<GLuint>(i)))) return true;
   return false;
 }
 
@@ -113,25 +143,57 @@ AvsmRig::AvsmRig(tyndall::AvsmConfig config) : config_(std::move(config)) {
   avsm_ = std::move(result.avsm);
 }
 
-void captureInto(tyndall::Avsm& avsm, const std::vector<Captured>& segments) {
-  struct Input {
-    glm::ivec4 texel;
-    glm::vec4 values;
-  };
+namespace {
+
+struct Input {
+  glm::ivec4 texel;
+  glm::vec4 values;
+};
+
+std::vector<Input> inputsOf(const std::vector<Captured>& segments) {
   std::vector<Input> inputs;
   inputs.reserve(segments.size());
   for (const Captured& s : segments)
     inputs.push_back({glm::ivec4(s.texel, 0), glm::vec4(s.entry, s.exit, s.transmittance, 0)});
+  return inputs;
+}
+
+void captureBy(tyndall::Avsm& avsm, const std::vector<Input>& inputs, const char* shader, std::size_t invocations) {
   const tyndall::Status began = avsm.begin(2);
   INFO(began.message);
   REQUIRE(began);
   if (inputs.empty()) return;
   const ComputeProgram program(
       std::string("#version 430 core\n#define TYNDALL_LISTS_BINDING 2\n#define TYNDALL_SEGMENTS_BINDING 3\n") +
-      tyndall::avsmCaptureSource() + kCapture);
+      tyndall::avsmCaptureSource() + shader);
   const host::GlBuffer buffer = host::makeBuffer();
   fillBuffer(buffer, kInput, inputs.size() * sizeof(Input), inputs.data());
-  program.run(inputs.size());
+  program.run(invocations);
+  unbind();
+}
+
+} // namespace
+
+void captureInto(tyndall::Avsm& avsm, const std::vector<Captured>& segments) {
+  captureBy(avsm, inputsOf(segments), kCapture, segments.size());
+}
+
+void captureLastFirst(tyndall::Avsm& avsm, const std::vector<Captured>& segments) {
+  captureBy(avsm, inputsOf(segments), kCaptureLastFirst, 1);
+}
+
+void insertByImage(tyndall::Avsm& avsm, const std::vector<Captured>& segments) {
+  const tyndall::AvsmCurves curves = avsm.curves();
+  const std::vector<Input> inputs = inputsOf(segments);
+  const ComputeProgram program("#version 430 core\n#define TYNDALL_CURVES_IMAGE 1\n#define TYNDALL_CURVE_NODES " +
+                               std::to_string(curves.nodes) + "\n#define TYNDALL_CURVE_PACKED " +
+                               (curves.packed ? "1\n" : "0\n") + tyndall::avsmInsertSource() + kInsert);
+  const host::GlBuffer buffer = host::makeBuffer();
+  fillBuffer(buffer, kInput, inputs.size() * sizeof(Input), inputs.data());
+  gl().BindImageTexture(1, curves.texture, 0, GL_TRUE, 0, GL_READ_WRITE, GL_RGBA32UI);
+  program.run(1);
+  gl().MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  gl().BindImageTexture(1, 0, 0, GL_FALSE, 0, GL_READ_ONLY, GL_R32F);
   unbind();
 }
 

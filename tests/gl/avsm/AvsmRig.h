@@ -14,6 +14,8 @@ namespace tests {
 /// True if the test context is new enough; else says that the test is skipped.
 bool hasAvsm();
 
+bool hasExtension(const std::string& name);
+
 /// A segment as it is given to tyndallCapture().
 struct Captured {
   glm::ivec3 texel{0};
@@ -31,6 +33,13 @@ double curveError(const Curve& curve, const std::vector<reference::Segment>& seg
 
 /// begin(), and a compute shader that captures these, in an order of the driver's.
 void captureInto(tyndall::Avsm& avsm, const std::vector<Captured>& segments);
+
+/// begin(), and one invocation that captures these, the last one first: CurveReduction::InOrder inserts them in the
+/// order of the vector.
+void captureLastFirst(tyndall::Avsm& avsm, const std::vector<Captured>& segments);
+
+/// After beginStreaming(): one invocation that inserts these in order, by avsmInsert's image.
+void insertByImage(tyndall::Avsm& avsm, const std::vector<Captured>& segments);
 
 class AvsmRig {
 public:

@@ -67,6 +67,32 @@ TEST_CASE("avsm: capture compiles in fragment and compute shaders, at any bindin
       }
 }
 
+TEST_CASE("avsm: insertion compiles for all curves, beside capture and look-up") {
+  if (!tests::hasAvsm()) return;
+  const bool fetch = tests::hasExtension("GL_EXT_shader_framebuffer_fetch");
+  const bool interlock = tests::hasExtension("GL_ARB_fragment_shader_interlock");
+  for (const int nodes : {4, 8, 12, 16})
+    for (const int packed : {0, 1}) {
+      CAPTURE(nodes, packed);
+      const std::string curves = define("TYNDALL_CURVE_NODES", nodes) + define("TYNDALL_CURVE_PACKED", packed);
+      const std::string image = curves + define("TYNDALL_CURVES_IMAGE", 3) + avsmInsertSource();
+      const std::string call = "tyndallInsertAt(ivec3(0), 0.25, 0.5, 0.5);";
+      const std::string computeMain = "layout(local_size_x = 1) in;\nvoid main() { " + call + " }\n";
+      checkCompiles(GL_COMPUTE_SHADER, "#version 430 core\n" + image + computeMain);
+      checkCompiles(GL_COMPUTE_SHADER, "#version 430 core\n" + std::string(avsmCaptureSource()) + image +
+                                           avsmLookupSource() + computeMain);
+      if (interlock)
+        checkCompiles(GL_FRAGMENT_SHADER,
+                      "#version 430 core\n#extension GL_ARB_fragment_shader_interlock : require\n" + image +
+                          "layout(pixel_interlock_ordered) in;\nvoid main() {\n  beginInvocationInterlockARB();\n  " +
+                          call + "\n  endInvocationInterlockARB();\n}\n");
+      if (!fetch) continue;
+      for (const std::string& version : {std::string("#version 330 core\n"), std::string("#version 430 core\n")})
+        checkCompiles(GL_FRAGMENT_SHADER, version + "#extension GL_EXT_shader_framebuffer_fetch : require\n" + curves +
+                                              avsmInsertSource() + "void main() { tyndallInsert(0.25, 0.5, 0.5); }\n");
+    }
+}
+
 TEST_CASE("avsm: look-up compiles from #version 330 on, for all curves") {
   tests::testContext();
   std::vector<std::string> versions = {"#version 330 core\n"};
