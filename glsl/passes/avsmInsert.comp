@@ -8,7 +8,7 @@
 void main() {
   ivec3 texel = ownTexel();
   if (isOutside(texel)) return;
-  for (int i = 0; i < ROOM; ++i) curve[i] = vec2(1.0);
+  for (int i = 0; i < ROOM; ++i) curve[i] = vec2(kUnused, 1.0);
   for (uint at = tyndallLists[listOf(texel)].head; at != kTyndallEnd; at = tyndallSegments[at].w) insertSegment(segmentAt(at));
   padCurve();
   storeCurve(texel);
