@@ -71,8 +71,7 @@ struct Avsm::State {
 
   Status makeCurves();
   Status makeObjects();
-  Status run(const std::string& name, const std::string& file, const gl::Definitions& definitions, int firstRun = 0,
-             int lastRun = 0);
+  Status run(const std::string& name, const std::string& file, const gl::Definitions& definitions);
   Status makeOrder();
   Status dispatchAll();
   int curveLayers() const { return config.layers * config.nodes / (config.packed ? 4 : 2); }
@@ -165,14 +164,9 @@ Status Avsm::State::makeObjects() {
   return {};
 }
 
-Status Avsm::State::run(const std::string& name, const std::string& file, const gl::Definitions& definitions,
-                        int firstRun, int lastRun) {
+Status Avsm::State::run(const std::string& name, const std::string& file, const gl::Definitions& definitions) {
   const gl::Uint program = programs.useCompute(file, definitions);
   if (!program) return {StatusCode::ShaderError, "a shader did not build: " + programs.error()};
-  if (firstRun > 0) {
-    gl.Uniform1i(gl.GetUniformLocation(program, "firstRun"), firstRun);
-    gl.Uniform1i(gl.GetUniformLocation(program, "lastRun"), lastRun);
-  }
   recorder.run(name, [&] {
     const auto groups = static_cast<gl::Uint>((config.size + kGroup - 1) / kGroup);
     gl.DispatchCompute(groups, groups, static_cast<gl::Uint>(config.layers));
@@ -185,11 +179,10 @@ Status Avsm::State::run(const std::string& name, const std::string& file, const 
 // The lists in the order of entries; to reduce whole curves, of exits as well.
 Status Avsm::State::makeOrder() {
   const bool withExits = config.reduction == CurveReduction::WholeCurve;
-  for (int exits = 0; exits < (withExits ? 2 : 1); ++exits)
-    for (const auto& [first, last] : {std::pair(1, 32), std::pair(64, static_cast<int>(avsm::kMostSegments) / 2)}) {
-      const std::string name = exits == 1 ? "sort exits" : "sort entries";
-      if (Status s = run(name, "passes/avsmSort.comp", {{"EXITS", exits}}, first, last); !s) return s;
-    }
+  for (int exits = 0; exits < (withExits ? 2 : 1); ++exits) {
+    const std::string name = exits == 1 ? "sort exits" : "sort entries";
+    if (Status s = run(name, "passes/avsmSort.comp", {{"EXITS", exits}}); !s) return s;
+  }
   return {};
 }
 
