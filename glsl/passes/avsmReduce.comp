@@ -50,7 +50,6 @@ void keepNodes(uint list) {
       --last;
     }
   }
-  used = NODES;
 }
 
 float lengthAt(int i) { return i >= 0 && i + 1 < NODES ? curve[min(i + 1, NODES - 1)].x - curve[i].x : 0.0; }
