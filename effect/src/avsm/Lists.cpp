@@ -42,8 +42,12 @@ Status Lists::empty() {
   gl::Int limit = 0;
   gl_.GetIntegerv(gl::MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
   block = limit > 0 ? limit : INT32_MAX;
-  const std::uint64_t most = std::min({roomIn(mostBytes_), static_cast<std::uint64_t>(block) / kSegmentBytes - lists_,
-                                       std::uint64_t{UINT32_MAX} - 2 * lists_});
+  const std::uint64_t blockSegments = static_cast<std::uint64_t>(block) / kSegmentBytes;
+  if (blockSegments < lists_)
+    return {StatusCode::OutOfMemory, "this context's storage blocks hold " + std::to_string(blockSegments) +
+                                         " segments, fewer than the map's " + std::to_string(lists_) + " texels"};
+  const std::uint64_t most =
+      std::min({roomIn(mostBytes_), blockSegments - lists_, std::uint64_t{UINT32_MAX} - 2 * lists_});
   const std::uint64_t needed = allocated_ ? header().taken : kFirstPerList * lists_;
   const std::uint64_t room = std::min(most, needed > room_ ? needed + needed / 4 : room_);
   if (!allocated_) {

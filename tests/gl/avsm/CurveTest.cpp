@@ -165,3 +165,18 @@ TEST_CASE("avsm: as many segments in one texel as a list may hold, in any order"
     CHECK(rig.curve({6, 1, 0}) == curve);
   }
 }
+
+TEST_CASE("avsm: a map with more texels than a storage block has room for is refused") {
+  if (!tests::hasAvsm()) return;
+  GLint64 block = 0;
+  host::gl().GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block);
+  const int size = static_cast<int>(std::sqrt(static_cast<double>(block) / 16)) + 8;
+  if (size > 4096) {
+    WARN("skipped: the context's storage blocks hold a segment for every texel of the largest map");
+    return;
+  }
+  AvsmRig rig(configOf(CurveReduction::InOrder, 4, true, size));
+  const Status status = rig.avsm().begin();
+  CHECK(status.code == StatusCode::OutOfMemory);
+  CHECK(status.message.find("storage blocks") != std::string::npos);
+}
