@@ -3,9 +3,10 @@
 
 vec2 tyndallCurve[TYNDALL_CURVE_ROOM];
 int tyndallUsed = 0;
+const float kTyndallUnused = 2.0; // depth of nodes in no use: behind the far plane
 
 void tyndallEmptyCurve() {
-  for (int i = 0; i < TYNDALL_CURVE_ROOM; ++i) tyndallCurve[i] = vec2(1.0);
+  for (int i = 0; i < TYNDALL_CURVE_ROOM; ++i) tyndallCurve[i] = vec2(kTyndallUnused, 1.0);
   tyndallUsed = 0;
 }
 

@@ -24,7 +24,7 @@ void tyndallTakeTexel(int first, uvec4 texel) {
   tyndallCurve[first + 1] = uintBitsToFloat(texel.zw);
 }
 #endif
-const int kuvec4sOfCurve = TYNDALL_CURVE_NODES / kTyndallNodesOfTexel;
+const int kTyndallTexelsOfCurve = TYNDALL_CURVE_NODES / kTyndallNodesOfTexel;
 
 // Counts the nodes of a curve whose texels were taken, as tyndallPadCurve() left them.
 void tyndallFindUsed() {
@@ -32,4 +32,5 @@ void tyndallFindUsed() {
   for (int i = TYNDALL_CURVE_NODES - 1; i > 0; --i)
     if (tyndallUsed == i + 1 && tyndallCurve[i] == tyndallCurve[i - 1]) tyndallUsed = i;
   if (tyndallUsed == 1 && tyndallCurve[0] == vec2(1.0)) tyndallUsed = 0;
+  for (int i = 0; i < TYNDALL_CURVE_ROOM; ++i) tyndallCurve[i].x = i < tyndallUsed ? tyndallCurve[i].x : kTyndallUnused;
 }

@@ -9,5 +9,6 @@ void main() {
   ivec3 texel = ivec3(gl_GlobalInvocationID);
   if (any(greaterThanEqual(texel.xy, imageSize(curveImage).xy))) return;
   tyndallEmptyCurve();
+  tyndallPadCurve();
   storeCurve(texel);
 }

@@ -286,13 +286,10 @@ Status Avsm::State::run(const std::string& name, const std::string& file, const 
 // The lists in the order of entries; to reduce whole curves, of exits as well.
 Status Avsm::State::makeOrder() {
   const bool withExits = config.reduction == CurveReduction::WholeCurve;
-  for (int exits = 0; exits < (withExits ? 2 : 1); ++exits)
-    for (const auto& [first, last] : {std::pair(1, 32), std::pair(64, static_cast<int>(avsm::kMostSegments) / 2)}) {
-      const std::string name = exits == 1 ? "sort exits" : "sort entries";
-      if (Status s = run(name, "passes/avsmSort.comp", {{"EXITS", exits}}, {{"firstRun", first}, {"lastRun", last}});
-          !s)
-        return s;
-    }
+  for (int exits = 0; exits < (withExits ? 2 : 1); ++exits) {
+    const std::string name = exits == 1 ? "sort exits" : "sort entries";
+    if (Status s = run(name, "passes/avsmSort.comp", {{"EXITS", exits}}); !s) return s;
+  }
   return {};
 }
 

@@ -45,13 +45,10 @@ public:
   void build() override {
     makeRoom();
     const std::size_t groups = (size_ + 7) / 8;
-    for (const ComputeProgram* sort : {&sortEntries_, &sortExits_})
-      for (const auto& [first, last] : {std::pair(1, 32), std::pair(64, 2048)}) {
-        sort->use();
-        sort->set("firstRun", first);
-        sort->set("lastRun", last);
-        ComputeProgram::dispatch(groups, groups);
-      }
+    for (const ComputeProgram* sort : {&sortEntries_, &sortExits_}) {
+      sort->use();
+      ComputeProgram::dispatch(groups, groups);
+    }
     build_.use();
     build_.set("threshold", threshold_);
     ComputeProgram::dispatch(groups, groups);

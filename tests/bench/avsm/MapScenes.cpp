@@ -46,21 +46,26 @@ void draw(const Puff& puff, double flatness, MapScene& scene) {
     }
 }
 
-/// Three columns, each swaying and widening as it rises, small tight puffs among large thin ones; in the middle of the
-/// map all three stand behind each other.
+/// Three columns, each swaying and widening as it rises, made of billows, which small tight and large thin puffs make
+/// up; in the middle of the map all three stand behind each other.
 void drawSmoke(MapScene& scene) {
   Random random(1);
-  constexpr int kPuffs = 14000;
-  for (int i = 0; i < kPuffs; ++i) {
+  constexpr int kBillows = 420, kPuffsOfEach = 40;
+  for (int i = 0; i < kBillows; ++i) {
     const int column = i % 3;
-    const double height = random(), width = 0.05 + 0.13 * height;
-    Puff puff{};
-    puff.x = 0.5 + 0.17 * (column - 1) * (1.6 - height) + 0.04 * std::sin(7 * height + column) + width * random.bell();
-    puff.y = 1.04 * height - 0.02;
-    puff.depth = 0.16 + 0.33 * column + 0.03 * std::sin(9 * height + 2 * column) + 0.4 * width * random.bell();
-    puff.radius = random.between(0.01, 0.03) + 0.035 * height * random();
-    puff.density = 0.0012 / (puff.radius + 0.01) * random.between(0.2, 1.8);
-    draw(puff, 0.3, scene);
+    const double height = random(), width = 0.05 + 0.13 * height, strength = random.between(0.2, 1.8);
+    const double x =
+        0.5 + 0.17 * (column - 1) * (1.6 - height) + 0.04 * std::sin(7 * height + column) + width * random.bell();
+    const double depth = 0.17 + 0.32 * column + 0.03 * std::sin(9 * height + 2 * column) + 0.8 * width * random.bell();
+    for (int k = 0; k < kPuffsOfEach; ++k) {
+      Puff puff{};
+      puff.x = x + 0.3 * width * random.bell();
+      puff.y = 1.04 * height - 0.02 + 0.3 * width * random.bell();
+      puff.depth = depth + 0.06 * width * random.bell();
+      puff.radius = random.between(0.01, 0.03) + 0.03 * height * random();
+      puff.density = 0.0014 * strength / (puff.radius + 0.01);
+      draw(puff, 0.25, scene);
+    }
   }
 }
 
@@ -72,13 +77,13 @@ void drawStrand(Random& random, MapScene& scene) {
   double driftX = 0.5 * (x - 0.5) + 0.05 * random.bell(), driftDepth = 0.3 * (depth - 0.5) + 0.1 * random.bell();
   const double length = random.between(0.3, 0.6), thickness = random.between(0.001, 0.003),
                phase = random.between(0, 6);
-  const double passed = random.between(0.05, 0.4);
+  const double passed = random.between(0.05, 0.3);
   std::uint32_t last = 0xFFFFFFFF;
   const double step = 0.4 / scene.size;
   for (double s = 0; s < length; s += step) {
     const int column = static_cast<int>(std::floor(x * scene.size)), row = static_cast<int>(std::floor(y * scene.size));
     const auto texel = static_cast<std::uint32_t>(row * scene.size + column);
-    const double cover = random.between(0.4, 1);
+    const double cover = random.between(0.1, 0.8);
     if (column >= 0 && row >= 0 && column < scene.size && row < scene.size && texel != last)
       scene.segments.push_back({texel, static_cast<float>(depth), static_cast<float>(depth + thickness),
                                 static_cast<float>(1 - cover * (1 - passed))});

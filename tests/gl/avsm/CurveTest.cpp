@@ -137,3 +137,31 @@ TEST_CASE("avsm: curves fall, stay in [0, 1], keep both ends and get closer with
       }
     }
 }
+
+TEST_CASE("avsm: as many segments in one texel as a list may hold, in any order") {
+  if (!tests::hasAvsm()) return;
+  constexpr int kCount = 4096;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<reference::Segment> segments;
+  for (int i = 0; i < kCount; ++i) {
+    const double entry = std::pow(uniform(random), 2);
+    segments.push_back({entry, std::min(entry + 0.05 * uniform(random), 1.0), std::exp(-6 * uniform(random) / kCount)});
+  }
+  std::vector<Captured> all = atTexel(segments, {1, 1, 0});
+  std::shuffle(segments.begin(), segments.end(), random);
+  for (const Captured& s : atTexel(segments, {6, 1, 0}))
+    all.push_back(s);
+  for (const CurveReduction reduction : {CurveReduction::WholeCurve, CurveReduction::Sorted}) {
+    AvsmRig rig(configOf(reduction, 8, false, 8));
+    rig.capture(all);
+    rig.capture(all);
+    CAPTURE(static_cast<int>(reduction));
+    CHECK(rig.avsm().statistics().lost == 0);
+    const Curve curve = rig.curve({1, 1, 0});
+    checkShape(curve);
+    CHECK(tests::curveError(curve, segments) < (reduction == CurveReduction::WholeCurve ? 0.01 : 0.03));
+    CHECK(curve.back().y == Approx(reference::transmittanceAt(segments, 1)).margin(1e-4));
+    CHECK(rig.curve({6, 1, 0}) == curve);
+  }
+}

@@ -20,17 +20,13 @@ void main() {
   uint list = listOf(texel);
   texels[list] = uvec2(0u);
   if (tyndallLists[list].count == 0u) return;
-  // The walk stops at each end once and, where the curve bends, 4 times an optical depth of 1 besides. One more each for start and end.
+  // The walk stops at each end once more and, where the curve bends, 4 times an optical depth of 1 besides. One more each for start and end.
   first = atomicAdd(nodesReserved, 2u * tyndallLists[list].count + 4u * uint(kOpaque) + 4u);
   Walk walk = startWalk(list);
-  vec2 start = vec2(-1.0), last = vec2(-1.0), slopes = vec2(-3e38, 3e38);
-  while (!isOver(walk)) {
-    if (!nextNode(walk)) continue;
+  vec2 start = nodeOf(walk), last = start, slopes = vec2(-3e38, 3e38);
+  emit(start);
+  while (!isOver(walk) && nextNode(walk)) {
     vec2 node = nodeOf(walk);
-    if (start.x < 0.0) {
-      emit(vec2(node.x, 1.0));
-      start = last = vec2(node.x, 1.0);
-    }
     if (node.x > start.x) {
       vec2 own = (node.y + vec2(-threshold, threshold) - start.y) / (node.x - start.x);
       if (own.x > slopes.y || own.y < slopes.x) { // no line from the start passes here and where the last ones did

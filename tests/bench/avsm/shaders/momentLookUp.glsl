@@ -63,10 +63,12 @@ vec2 quadraticRoots(vec3 c) {
 }
 
 #if MOMENTS == 6
+const float kFar = 1e5; // a root there has no mass
+
 // The same of a cubic with three real roots: the one farthest from 0 in closed form, then those of what is left without it.
 vec3 cubicRoots(vec4 c) {
-  float leading = abs(c.w) > 1e-20 ? c.w : 1e-20;
-  vec3 b = c.xyz / leading;
+  if (abs(c.w) < 1e-5 * max(abs(c.x), max(abs(c.y), abs(c.z)))) return vec3(kFar, quadraticRoots(c.xyz));
+  vec3 b = c.xyz / c.w;
   float shift = b.z / 3.0, p = max(shift * shift - b.y / 3.0, 0.0), q = shift * shift * shift - 0.5 * shift * b.y + 0.5 * b.x;
   float angle = acos(clamp(-q / max(p * sqrt(p), 1e-30), -1.0, 1.0)) / 3.0, size = 2.0 * sqrt(p);
   float high = size * cos(angle) - shift, low = size * cos(angle + 2.0943951) - shift;
