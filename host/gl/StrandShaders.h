@@ -70,7 +70,7 @@ uniform int lightsAcross;
 uniform vec4 eye;
 layout(location = 0) out vec4 radiance;
 const float kTilt = 0.06;  // alpha, radians
-const float kRough = 0.13; // of R, radians; TRT twice, TT half of it
+const float kRough = 0.13; // of R, radians; of the others some times that
 
 float lobe(float width, float x) { return exp(-0.5 * x * x / (width * width)) / (width * 2.5066283); }
 
@@ -80,10 +80,11 @@ vec3 towardsEye(vec3 albedo, vec3 tangent, vec3 toLight, vec3 toEye) {
   float halfAngle = 0.5 * (asin(sinLight) + asin(sinEye));
   vec3 lightAcross = toLight - sinLight * tangent, eyeAcross = toEye - sinEye * tangent;
   float cosAround = dot(lightAcross, eyeAcross) / max(1e-4, length(lightAcross) * length(eyeAcross)); // 1e-4: end on
-  float facing = clamp(0.5 + 0.5 * cosAround, 0.0, 1.0); // 1 with the light behind the eye, 0 with the strand between them
+  // 1 with the light behind the eye, 0 with the strand between them; rounding must not pass either.
+  float facing = clamp(0.5 + 0.5 * cosAround, 0.0, 1.0);
   vec3 gloss = vec3(0.022 * sqrt(facing) * lobe(kRough, halfAngle + kTilt));
   gloss += 0.08 * albedo * facing * facing * lobe(2.0 * kRough, halfAngle - 1.5 * kTilt);
-  gloss += 0.07 * sqrt(albedo) * pow(1.0 - facing, 6.0) * lobe(0.5 * kRough + 0.1, halfAngle + 0.5 * kTilt);
+  gloss += 0.07 * sqrt(albedo) * pow(1.0 - facing, 6.0) * lobe(1.3 * kRough, halfAngle - 0.5 * kTilt);
   return cosLight * (albedo / kPi * (0.55 + 0.45 * facing) + gloss);
 }
 
