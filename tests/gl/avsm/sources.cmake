@@ -1,6 +1,11 @@
-#Tests of adaptive volumetric shadow maps, for the executable that includes this file.
-set(TYNDALL_GL_AVSM_TESTS ${CMAKE_CURRENT_LIST_DIR} / AvsmContextTest.cpp ${CMAKE_CURRENT_LIST_DIR} /
-    AvsmRig.cpp ${CMAKE_CURRENT_LIST_DIR} / AvsmShaderTest.cpp ${CMAKE_CURRENT_LIST_DIR} /
-    CaptureTest.cpp ${CMAKE_CURRENT_LIST_DIR} / CurveTest.cpp ${CMAKE_CURRENT_LIST_DIR} /
-    FragmentTest.cpp ${CMAKE_CURRENT_LIST_DIR} / ParticleTest.cpp ${CMAKE_CURRENT_LIST_DIR} /
-    ShaftTest.cpp ${CMAKE_CURRENT_LIST_DIR} / StreamTest.cpp)
+# Tests of adaptive volumetric shadow maps, for the executable that includes this file.
+set(TYNDALL_GL_AVSM_TESTS
+  ${CMAKE_CURRENT_LIST_DIR}/AvsmContextTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/AvsmRig.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/AvsmShaderTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/CaptureTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/CurveTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/FragmentTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/ParticleTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/ShaftTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/StreamTest.cpp)
