@@ -84,7 +84,7 @@ public:
   /// After beginStreaming(): inserts particles, seen through the light's shadow views, each in a layer's place, in
   /// the order of the buffer (4.3; a tile of texels walks through all of them). The nearer to the light the first, the
   /// better the curves: in the order of depth they are those of CurveReduction::Sorted. Packed curves are rounded to 16
-  /// bits after each 32,768 particles and at the end. Nothing is drawn unless the status is Ok; it is InvalidFrame for
+  /// bits after each 4,096 particles and at the end. Nothing is drawn unless the status is Ok; it is InvalidFrame for
   /// a field that breaks its rule, a light without shadow views or with more than the map has layers, and a view for
   /// which avsmDepth() fails. GL state on return equals GL state on entry.
   Status drawParticles(const Light& light, const AvsmParticles& particles);

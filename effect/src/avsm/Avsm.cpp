@@ -186,7 +186,7 @@ Status Avsm::resolve() {
     state.recorder.skip("curves", "no segment was captured");
     return {};
   }
-  const Status status = state.makeCurves();
+  Status status = state.makeCurves();
   state.holds = static_cast<bool>(status);
   return status;
 }
@@ -199,7 +199,7 @@ Status Avsm::beginStreaming() {
   state.began = State::Began::Nothing;
   state.recorder.beginFrame();
   state.gl.BindImageTexture(0, state.curves.name(), 0, 1, 0, gl::WRITE_ONLY, gl::RGBA32UI);
-  const Status status = state.run("empty", "passes/avsmEmpty.comp", state.curveDefinitions());
+  Status status = state.run("empty", "passes/avsmEmpty.comp", state.curveDefinitions());
   state.holds = static_cast<bool>(status);
   if (status) state.began = State::Began::Streaming;
   return status;

@@ -18,7 +18,7 @@ struct ParticleView {
 using ParticlesBlock = std::array<ParticleView, kMaxShadowViews>;
 
 /// Particles of one dispatch: a driver may cut an invocation that loops for long short.
-inline constexpr std::uint32_t kMostParticles = 32768;
+inline constexpr std::uint32_t kMostParticles = 4096;
 inline constexpr std::uint32_t kParticleBytes = 20;
 
 /// Every rule of the arguments of Avsm::drawParticles. Binds to the generic storage target.

@@ -135,7 +135,7 @@ double curveError(const Curve& curve, const std::vector<reference::Segment>& seg
   return sum / kDepths;
 }
 
-AvsmRig::AvsmRig(tyndall::AvsmConfig config) : config_(std::move(config)) {
+AvsmRig::AvsmRig(const tyndall::AvsmConfig& config) : config_(config) {
   config_.loader = testContext().loader();
   tyndall::AvsmResult result = tyndall::Avsm::create(config_);
   INFO(result.status.message);

@@ -43,7 +43,7 @@ void insertByImage(tyndall::Avsm& avsm, const std::vector<Captured>& segments);
 
 class AvsmRig {
 public:
-  explicit AvsmRig(tyndall::AvsmConfig config = {});
+  explicit AvsmRig(const tyndall::AvsmConfig& config = {});
 
   tyndall::Avsm& avsm() { return *avsm_; }
 
