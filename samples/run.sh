@@ -34,4 +34,7 @@ picture stage
 picture concert --shadow-size 2048
 picture projector
 picture orrery
+picture smoke
+picture hair
+picture censer
 say "Done: look at out/gallery/"

@@ -109,7 +109,7 @@ struct GlassMap {
 };
 
 /// Transmittance of smoke and hair from the light on, as Avsm::curves() gives it (tyndall/avsm.h), through the same
-/// views as the shadow map, each in a layer's place.
+/// views as the shadow map: those of view i were captured into layer i, whatever its layer in the shadow map.
 struct AvsmCurves {
   std::uint32_t texture = 0; ///< GL_TEXTURE_2D_ARRAY, RGBA32UI; 0: nothing dims the light
   int nodes = 8;             ///< of a curve

@@ -56,10 +56,14 @@ void Stage::capture(tyndall::Avsm& lists) {
 }
 
 void Stage::captureAll(tyndall::Avsm& lists) {
+  std::uint64_t lost = 0;
+  for (int frame = 0; frame < 2; ++frame) { // the first one tells how much room is needed
+    capture(lists);
+    if (const tyndall::Status status = lists.resolve(); !status) throw host::Error(status.message);
+    lost = lists.statistics().lost;
+  }
+  if (lost > 0) throw host::Error("segments were lost");
   capture(lists);
-  if (const tyndall::Status status = lists.resolve(); !status) throw host::Error(status.message);
-  capture(lists);
-  if (lists.statistics().lost > 0) throw host::Error("segments were lost");
 }
 
 std::vector<float> Stage::answers(const Method& method, const std::vector<Query>& queries) const {

@@ -43,6 +43,7 @@ double errorOf(const reference::Image& image, const reference::Image& truth) {
 struct Scene {
   tests::ShaftRig rig;
   std::unique_ptr<tests::AvsmRig> smoke;
+  std::vector<tests::Captured> captured;
 
   explicit Scene(const Light& light, bool glass = false, bool packed = true) : rig(48, 32) {
     rig.addLight(light, 128, glass);
@@ -58,9 +59,9 @@ struct Scene {
 
   void fill(unsigned seed) {
     const bool sun = light().kind == LightKind::Directional;
-    const auto all = puffs(static_cast<int>(light().shadow.views.size()), seed, sun ? 0.1F : 0.01F, sun ? 0.5F : 0.13F);
+    captured = puffs(static_cast<int>(light().shadow.views.size()), seed, sun ? 0.1F : 0.01F, sun ? 0.5F : 0.13F);
     for (int i = 0; i < 2; ++i) // the memory grows
-      smoke->capture(all);
+      smoke->capture(captured);
     REQUIRE(smoke->avsm().statistics().lost == 0);
     light().curves = smoke->avsm().curves();
     rig.scene.curves = {smoke->map()};
@@ -133,6 +134,34 @@ TEST_CASE("avsm shafts: filtered shadows, cascades, coloured media and every set
   const reference::Image exact = scene.picture(Technique::Exact);
   for (const Technique technique : kFast)
     CHECK(errorOf(scene.picture(technique), exact) < 0.04);
+}
+
+TEST_CASE("avsm shafts: curves of eight nodes are near to all that was captured") {
+  if (!tests::hasAvsm()) return;
+  for (const LightKind kind : kKinds) {
+    Scene scene(tests::shaftLight(kind));
+    const auto texels = static_cast<std::size_t>(kSize * kSize);
+    std::vector<std::vector<reference::Segment>> segments(texels * scene.light().shadow.views.size());
+    for (const tests::Captured& s : scene.captured)
+      segments[static_cast<std::size_t>((s.texel.z * kSize + s.texel.y) * kSize + s.texel.x)].push_back(
+          {s.entry, s.exit, s.transmittance});
+    reference::CurveMap all{kSize, {}};
+    constexpr int kDepths = 1000;
+    for (const auto& list : segments) {
+      all.curves.emplace_back();
+      for (int i = 0; i <= kDepths; ++i)
+        all.curves.back().emplace_back(i / double(kDepths), reference::transmittanceAt(list, i / double(kDepths)));
+    }
+    scene.rig.scene.curves = {all};
+    const reference::Image uncompressed = scene.rig.scene.reference().inscatter;
+    for (const Technique technique : {Technique::Exact, Technique::Epipolar}) {
+      const double error = errorOf(scene.picture(technique), uncompressed);
+      CAPTURE(static_cast<int>(kind), static_cast<int>(technique), error);
+      CHECK(error <
+            0.03 +
+                (technique == Technique::Exact ? 0 : errorOf(scene.clear(technique), scene.clear(Technique::Exact))));
+    }
+  }
 }
 
 TEST_CASE("avsm shafts: an opaque sheet before the light leaves no light, one that lets half through leaves half") {
