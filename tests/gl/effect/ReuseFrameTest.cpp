@@ -10,15 +10,6 @@ using namespace tests::reuse;
 
 namespace {
 
-tests::ShaftRig sunlit(Changes changes) {
-  tests::ShaftRig rig(64, 48);
-  rig.addLight(sun(), 64);
-  rig.scene.frame.lights[0].shadow.version = 7;
-  rig.scene.frame.depth.version = 3;
-  begin(rig, changes);
-  return rig;
-}
-
 std::vector<std::string> passesRun() {
   std::vector<std::string> names;
   for (const PassStatistics& pass : tests::testEffect().statistics().passes)

@@ -12,15 +12,6 @@ using namespace tests::reuse;
 
 namespace {
 
-tests::ShaftRig sunlit(Changes changes) {
-  tests::ShaftRig rig(64, 48);
-  rig.addLight(sun(), 64);
-  rig.scene.frame.lights[0].shadow.version = 7;
-  rig.scene.frame.depth.version = 3;
-  begin(rig, changes);
-  return rig;
-}
-
 // The cube from -1 to 1 as an engine may hold it: between other things, a position every 20 bytes.
 class CubeBuffer {
 public:

@@ -85,4 +85,14 @@ inline void begin(tests::ShaftRig& rig, Changes changes) {
   rig.scene.frame.reuse.view = newView();
 }
 
+// A small frame of a sun whose maps' versions stay as they are.
+inline tests::ShaftRig sunlit(Changes changes) {
+  tests::ShaftRig rig(64, 48);
+  rig.addLight(sun(), 64);
+  rig.scene.frame.lights[0].shadow.version = 7;
+  rig.scene.frame.depth.version = 3;
+  begin(rig, changes);
+  return rig;
+}
+
 } // namespace tests::reuse
