@@ -184,7 +184,10 @@ Status Effect::State::composite(const Frame& frame, const Destination& destinati
 
 Status Effect::State::chooseDestination(const Frame& frame, bool changesColour, Destination& destination) {
   const Output& output = frame.output;
-  if (output.inscatter == 0 && output.transmittance == 0 && !hasView(frame)) return {};
+  const bool curves = std::any_of(frame.lights.begin(), frame.lights.end(),
+                                  [](const Light& light) { return light.curves.texture != 0; });
+  // Shaders for smoke and hair are many and long: there are none that blend into the colour at once.
+  if (output.inscatter == 0 && output.transmittance == 0 && !hasView(frame) && !curves) return {};
   destination = {output.inscatter, output.transmittance, hasView(frame) || (changesColour && frame.colour != 0)};
   if (!destination.composite) return {};
   if (!destination.inscatter) destination.inscatter = targets.get(Target::Inscatter, frame.width, frame.height);

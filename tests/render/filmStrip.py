@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Puts frames side by side, and below each the tiles that were drawn anew (--view redrawn) over the dimmed picture; or, with
---rows, in so many rows as they are.
+--rows, in so many rows as they are, no wider than 2400 pixels.
 
 filmStrip.py OUT.jpg FRAME.png... MASK.png...      as many masks as frames
 filmStrip.py OUT.jpg --rows N IMAGE.png...         images of one size, row by row
@@ -22,4 +22,7 @@ across = len(images) // rows
 if not plain:
     images[across:] = [0.35 * f + 0.65 * m * [1, 0.25, 0.1] for f, m in zip(images, images[across:])]
 strip = numpy.vstack([numpy.hstack(images[across * row : across * (row + 1)]) for row in range(rows)])
-Image.fromarray(strip.clip(0, 255).astype("uint8")).save(out, quality=88)
+result = Image.fromarray(strip.clip(0, 255).astype("uint8"))
+if plain and result.width > 2400:
+    result = result.resize((2400, round(result.height * 2400 / result.width)))
+result.save(out, quality=88)

@@ -31,7 +31,7 @@ std::vector<Variant> allVariants() {
           v.shadowViews = 0;
           v.shadowArray = v.bilinear = v.glass = v.curves = false;
           all.push_back(v);
-          for (int bits = 0; bits < 16; ++bits) {
+          for (int bits = 0; bits < (composite ? 8 : 16); ++bits) {
             v.shadowArray = (bits & 1) != 0;
             v.bilinear = (bits & 2) != 0;
             v.glass = (bits & 4) != 0;

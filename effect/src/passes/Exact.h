@@ -15,7 +15,7 @@ struct Variant {
   bool shadowArray = false;
   bool bilinear = false;
   bool glass = false;
-  bool curves = false; ///< smoke and hair dim the light (Light::curves)
+  bool curves = false; ///< smoke and hair dim the light (Light::curves); never with `composite`
   bool monochrome = false;
   bool multisampled = false;
   bool composite = false; ///< dual-source outputs instead of two targets

@@ -101,12 +101,14 @@ Status run(SliceContext& context, const In& in) {
 }
 
 std::vector<gl::Variant> variantsOf(const exact::Variant& variant) {
-  return {{"passes/unwarp.frag", definitionsOf(variant, false)},
-          changes::overTiles({"passes/unwarp.frag", definitionsOf(variant, false)}),
-          changes::overTiles({"passes/pixelTree.frag", exact::definitionsOf(variant)}),
-          changes::overTiles({"passes/exact.frag", exact::definitionsOf(variant)}),
-          {"passes/unwarp.frag", definitionsOf(variant, true)},
-          {"passes/fixup.frag", exact::definitionsOf(variant)}};
+  std::vector<gl::Variant> all = {{"passes/unwarp.frag", definitionsOf(variant, false)},
+                                  {"passes/unwarp.frag", definitionsOf(variant, true)},
+                                  {"passes/fixup.frag", exact::definitionsOf(variant)}};
+  if (variant.composite) return all; // temporal reuse keeps its pictures
+  all.push_back(changes::overTiles({"passes/unwarp.frag", definitionsOf(variant, false)}));
+  for (const char* alone : {"passes/pixelTree.frag", "passes/exact.frag"})
+    all.push_back(changes::overTiles({alone, exact::definitionsOf(variant)}));
+  return all;
 }
 
 } // namespace tyndall::passes::unwarp

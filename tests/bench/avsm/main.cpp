@@ -7,12 +7,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fmt/format.h>
 #include <fstream>
 #include <gl/Context.h>
 #include <map>
 #include <optional>
 #include <scene/Error.h>
+#include <scene/ImageFile.h>
 
 namespace avsmbench {
 
@@ -24,7 +26,7 @@ struct Options {
   int size = 256;
   int runs = 5;
   std::string context = "osmesa";
-  std::string csv, curves;
+  std::string csv, curves, images;
   bool passes = false;
 };
 
@@ -125,7 +127,36 @@ public:
     }
   }
 
+  /// A picture for each method: an image of look-ups, and below it how far that is from the uncompressed lists', four
+  /// times.
+  void writeImages(const std::filesystem::path& folder, const std::vector<MethodEntry>& methods) {
+    const std::vector<float> truth = imageOf(methodNamed("lists"));
+    for (const MethodEntry& entry : methods) {
+      const std::vector<float> image = imageOf(entry);
+      std::vector<std::uint8_t> pixels;
+      for (const bool differences : {false, true})
+        for (int y = LookUps::kHeight - 1; y >= 0; --y)
+          for (int x = 0; x < LookUps::kWidth; ++x) {
+            const auto i = static_cast<std::size_t>(y * LookUps::kWidth + x);
+            const float value = differences ? 4 * std::abs(image[i] - truth[i]) : image[i];
+            pixels.insert(pixels.end(), 3, static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0F, 1.0F))));
+          }
+      std::string name = scene_.name + "-" + entry.name + ".png";
+      std::replace(name.begin(), name.end(), ' ', '-');
+      host::writePng(folder / name, LookUps::kWidth, 2 * LookUps::kHeight, pixels);
+    }
+  }
+
 private:
+  std::vector<float> imageOf(const MethodEntry& entry) {
+    const MethodPointer method = entry.make(*lists_, config_);
+    stage_.captureAll(method->lists());
+    method->build();
+    const LookUps lookUps(*method, scene_.size, false);
+    lookUps.run();
+    return lookUps.image();
+  }
+
   /// The busiest texel, and one busier than three quarters of those that hold anything.
   static std::vector<std::uint32_t> texelsToShow(const std::vector<std::vector<reference::Segment>>& segments) {
     std::vector<std::uint32_t> all;
@@ -208,6 +239,7 @@ void run(const Options& options) {
       fmt::print(stderr, "{}: {}\n", name, entry.name);
     }
     if (curves.is_open()) bench.writeCurves(curves, methods);
+    if (!options.images.empty()) bench.writeImages(options.images, methods);
     for (const std::string& error : context->takeErrors())
       throw host::Error(error);
   }
@@ -232,6 +264,8 @@ int main(int argc, char** argv) {
   app.add_option("--context", options.context, "osmesa, egl or glfw");
   app.add_option("--csv", options.csv, "a file for the table");
   app.add_option("--curves", options.curves, "a file for curves of single texels, for plotCurves.py");
+  app.add_option("--images", options.images, "a folder for pictures of look-ups, with differences")
+      ->check(CLI::ExistingDirectory);
   app.add_flag("--passes", options.passes, "times of the passes of resolve() as well");
   CLI11_PARSE(app, argc, argv);
   try {
