@@ -174,6 +174,24 @@ void captureBy(tyndall::Avsm& avsm, const std::vector<Input>& inputs, const char
 
 } // namespace
 
+tyndall::AvsmConfig configOf(tyndall::CurveReduction reduction, int size, int nodes, bool packed) {
+  tyndall::AvsmConfig config;
+  config.size = size;
+  config.nodes = nodes;
+  config.packed = packed;
+  config.reduction = reduction;
+  return config;
+}
+
+void checkNear(const Curve& a, const Curve& b, double margin) {
+  REQUIRE(a.size() == b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    CAPTURE(i);
+    CHECK(a[i].x == Approx(b[i].x).margin(margin));
+    CHECK(a[i].y == Approx(b[i].y).margin(margin));
+  }
+}
+
 void captureInto(tyndall::Avsm& avsm, const std::vector<Captured>& segments) {
   captureBy(avsm, inputsOf(segments), kCapture, segments.size());
 }

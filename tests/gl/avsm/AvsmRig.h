@@ -16,6 +16,8 @@ bool hasAvsm();
 
 bool hasExtension(const std::string& name);
 
+tyndall::AvsmConfig configOf(tyndall::CurveReduction reduction, int size, int nodes = 8, bool packed = false);
+
 /// A segment as it is given to tyndallCapture().
 struct Captured {
   glm::ivec3 texel{0};
@@ -30,6 +32,9 @@ double curveAt(const Curve& curve, double depth, bool exponential = false);
 
 /// Mean absolute difference between a curve and the segments it is made of, over [0, 1] in depth.
 double curveError(const Curve& curve, const std::vector<reference::Segment>& segments);
+
+/// Node by node, depths and transmittances.
+void checkNear(const Curve& a, const Curve& b, double margin);
 
 /// begin(), and a compute shader that captures these, in an order of the driver's.
 void captureInto(tyndall::Avsm& avsm, const std::vector<Captured>& segments);

@@ -10,6 +10,8 @@
 using namespace tyndall;
 using tests::AvsmRig;
 using tests::Captured;
+using tests::checkNear;
+using tests::configOf;
 using tests::Curve;
 
 namespace {
@@ -17,15 +19,6 @@ namespace {
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr CurveReduction kReductions[] = {CurveReduction::WholeCurve, CurveReduction::Sorted, CurveReduction::InOrder};
-
-AvsmConfig configOf(CurveReduction reduction, int size, int nodes = 8, bool packed = false) {
-  AvsmConfig config;
-  config.size = size;
-  config.nodes = nodes;
-  config.packed = packed;
-  config.reduction = reduction;
-  return config;
-}
 
 // A segment, and what it lets through up to 0, 0.5 and 1.
 struct Odd {
@@ -83,15 +76,6 @@ std::vector<Captured> puffsEverywhere(int size, int count, unsigned seed) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;
-}
-
-void checkNear(const Curve& a, const Curve& b, double margin) {
-  REQUIRE(a.size() == b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    CAPTURE(i);
-    CHECK(a[i].x == Approx(b[i].x).margin(margin));
-    CHECK(a[i].y == Approx(b[i].y).margin(margin));
-  }
 }
 
 // Segments of one texel that are thin and have no length, from the light on.

@@ -8,18 +8,10 @@
 using namespace tyndall;
 using tests::AvsmRig;
 using tests::Captured;
+using tests::configOf;
 using tests::Curve;
 
 namespace {
-
-AvsmConfig configOf(CurveReduction reduction, int nodes, bool packed, int size = 4) {
-  AvsmConfig config;
-  config.size = size;
-  config.nodes = nodes;
-  config.packed = packed;
-  config.reduction = reduction;
-  return config;
-}
 
 constexpr CurveReduction kReductions[] = {CurveReduction::WholeCurve, CurveReduction::Sorted, CurveReduction::InOrder};
 
@@ -65,7 +57,7 @@ TEST_CASE("avsm: a segment's curve falls between its ends, and at once where the
   if (!tests::hasAvsm()) return;
   for (const CurveReduction reduction : kReductions)
     for (const bool packed : {false, true}) {
-      AvsmRig rig(configOf(reduction, 8, packed));
+      AvsmRig rig(configOf(reduction, 4, 8, packed));
       rig.capture({{{1, 2, 0}, 0.25F, 0.5F, 0.8F}, {{3, 0, 0}, 0.5F, 0.5F, 0.25F}, {{2, 2, 0}, 0.125F, 0.126F, 0}});
       CAPTURE(static_cast<int>(reduction), packed);
       const std::vector<glm::ivec3> texels = {{1, 2, 0}, {1, 2, 0}, {1, 2, 0}, {1, 2, 0}, {3, 0, 0},
@@ -89,7 +81,7 @@ TEST_CASE("avsm: segments that overlap multiply, in any order") {
   if (!tests::hasAvsm()) return;
   const std::vector<reference::Segment> segments = {{0.2, 0.6, 0.7}, {0.3, 0.5, 0.8}, {0.5, 0.5, 0.9}};
   for (const CurveReduction reduction : kReductions) {
-    AvsmRig rig(configOf(reduction, 16, false));
+    AvsmRig rig(configOf(reduction, 4, 16));
     std::vector<Captured> forward = atTexel(segments, {0, 0, 0}), all = forward;
     std::reverse(forward.begin(), forward.end());
     for (Captured s : forward) {
@@ -114,7 +106,7 @@ TEST_CASE("avsm: curves fall, stay in [0, 1], keep both ends and get closer with
     for (const bool packed : {false, true}) {
       double last = 1;
       for (const int nodes : {4, 8, 12, 16}) {
-        AvsmRig rig(configOf(reduction, nodes, packed, kTexels));
+        AvsmRig rig(configOf(reduction, kTexels, nodes, packed));
         std::vector<Captured> all;
         for (int i = 0; i < kTexels * kTexels; ++i)
           for (const Captured& s : atTexel(smoke(i), {i % kTexels, i / kTexels, 0}))
@@ -153,7 +145,7 @@ TEST_CASE("avsm: as many segments in one texel as a list may hold, in any order"
   for (const Captured& s : atTexel(segments, {6, 1, 0}))
     all.push_back(s);
   for (const CurveReduction reduction : {CurveReduction::WholeCurve, CurveReduction::Sorted}) {
-    AvsmRig rig(configOf(reduction, 8, false, 8));
+    AvsmRig rig(configOf(reduction, 8));
     rig.capture(all);
     rig.capture(all);
     CAPTURE(static_cast<int>(reduction));

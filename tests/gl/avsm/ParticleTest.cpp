@@ -13,6 +13,7 @@ using namespace tyndall;
 using host::gl;
 using tests::AvsmRig;
 using tests::Captured;
+using tests::checkNear;
 using tests::Curve;
 
 namespace {
@@ -129,15 +130,6 @@ std::vector<Captured> segmentsOnAxis(const std::vector<Sphere>& spheres) {
                         (1 - s.centre.z + s.radius) / 2,
                         std::exp(-s.density * 2 * s.radius)});
   return segments;
-}
-
-void checkNear(const Curve& a, const Curve& b, double margin) {
-  REQUIRE(a.size() == b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    CAPTURE(i);
-    CHECK(a[i].x == Approx(b[i].x).margin(margin));
-    CHECK(a[i].y == Approx(b[i].y).margin(margin));
-  }
 }
 
 } // namespace

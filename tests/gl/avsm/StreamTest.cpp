@@ -9,6 +9,7 @@ using namespace tyndall;
 using host::gl;
 using tests::AvsmRig;
 using tests::Captured;
+using tests::checkNear;
 using tests::Curve;
 
 namespace {
@@ -77,15 +78,6 @@ Curve listed(int nodes, bool packed, const std::vector<Captured>& segments) {
   }
   CHECK(rig.avsm().statistics().lost == 0);
   return rig.curve(segments[0].texel);
-}
-
-void checkNear(const Curve& a, const Curve& b, double margin) {
-  REQUIRE(a.size() == b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    CAPTURE(i);
-    CHECK(a[i].x == Approx(b[i].x).margin(margin));
-    CHECK(a[i].y == Approx(b[i].y).margin(margin));
-  }
 }
 
 } // namespace
