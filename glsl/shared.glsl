@@ -17,14 +17,14 @@ UNIFORM_BLOCK(FrameBlock) {
   vec4 nearStep;
   vec4 depthToT;                      // x + y * depth = t; z: 1 if orthographic; w: ray length for the sky
   vec4 extinction;                    // sigma_t, rgb; w: ray length beyond which nothing visible is added
-  vec4 scattering[MAX_CONSTITUENTS];  // sigma_k times the norm of p_k, rgb
+  vec4 phaseWeight[MAX_CONSTITUENTS]; // share of sigma_k in the scattering of all constituents, rgb, times the norm of p_k
   vec4 phaseShape[MAX_CONSTITUENTS];  // a, b, c, side: p_k ~ (1 + c cos^2) (a + b (1 -+ cos))^(-3/2), - for side > 0
   vec4 limits;                        // x: largest radiance that the target's format holds
   ivec4 counts;                       // constituents, samples of the depth texture, image width, image height
 };
 
 UNIFORM_BLOCK(LightBlock) {
-  vec4 lightColour;                   // irradiance or radiant intensity, rgb
+  vec4 lightColour;                   // irradiance or radiant intensity times the scattering coefficient of all constituents, rgb
   vec4 lightDirection;                // unit; where a directional light travels to, the axis of a spot
   vec4 lightPosition;                 // point, spot; w: range, 0 if without limit
   vec4 cone;                          // cos(outer), cos(inner), 1 / (cos(inner) - cos(outer)) or 0 for a hard edge,

@@ -272,7 +272,7 @@ std::vector<Effect::State::DrawnLight> Effect::State::lightsToDraw(const Frame& 
     const FrameTextures::Shadow& map = textures.shadows[i];
     if (drawn[i])
       lights.push_back({i, nameOf(frame, i), settings[i],
-                        optics::lightBlock(light, frame.camera, map.width, map.height, map.curvesSize),
+                        optics::lightBlock(frame, light, map.width, map.height, map.curvesSize),
                         variantOf(frame, &light, direct)});
   }
   return lights;

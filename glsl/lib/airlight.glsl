@@ -1,7 +1,8 @@
 // In-scattered light of a lit span of a camera ray (DESIGN 1). LIGHT_KIND: 0 directional, 1 point, 2 spot.
 //
 // Airlight holds what a ray needs once; airlight(…, s0, s1) integrates the span [s0, s1]; litRange() says where along the
-// ray the light reaches at all. The light's colour is left out: the caller multiplies by it.
+// ray the light reaches at all. The light's colour and the scattering coefficient are left out: the caller multiplies by
+// lightColour, which holds both. PHASE_APART: so is a directional light's phase function, constant along the ray, too.
 
 // (1 - exp(-x)) / x for x >= 0: a series where the difference would cancel.
 float relativeExpm1(float x) {
@@ -16,17 +17,18 @@ vec3 relativeExpm1(vec3 x) { return vec3(relativeExpm1(x.x), relativeExpm1(x.y),
 #if LIGHT_KIND == 0
 
 struct Airlight {
-  Spectrum phase; // sum of sigma_k p_k, constant along the ray
+  Spectrum phase; // constant along the ray
   float path;     // the light's way through the medium to the point s is max(0, path + s pathSlope)
   float pathSlope;
 };
 
 Airlight airlightOf(Ray ray) {
-  // theta lies between the light's travel and the direction to the eye: cos = -dot(l, v). |l + v|^2 / 2 = 1 - cos.
-  vec3 l = lightDirection.xyz;
-  vec3 sum = l + ray.direction, difference = l - ray.direction;
-  return Airlight(scatteringTowardsEye(0.5 * dot(sum, sum), 0.5 * dot(difference, difference)),
-                  dot(boundary.xyz, ray.origin) + boundary.w, dot(boundary.xyz, ray.direction));
+#ifdef PHASE_APART
+  Spectrum phase = Spectrum(1.0);
+#else
+  Spectrum phase = phaseAlong(ray);
+#endif
+  return Airlight(phase, dot(boundary.xyz, ray.origin) + boundary.w, dot(boundary.xyz, ray.direction));
 }
 
 void litRange(Airlight light, inout float s0, inout float s1) {}
@@ -183,7 +185,7 @@ float panelLength(float t0, float r0, float t1, float r1, float len, float heigh
 // The integrand at r + t = P, r - t = N; start is s + r at the span's begin and P0 its P.
 Spectrum pointIntegrand(Airlight light, float P, float N, float start, float P0) {
   float r = 0.5 * (P + N);
-  Spectrum value = scatteringTowardsEye(P / r, N / r) * exp(-SPECTRUM(extinction) * (start + (P - P0))) / r;
+  Spectrum value = phaseTowardsEye(P / r, N / r) * exp(-SPECTRUM(extinction) * (start + (P - P0))) / r;
 #if LIGHT_KIND == 2
   value *= coneFalloff(light, 0.5 * (P - N), r);
 #endif

@@ -1,4 +1,4 @@
-// Phase functions of all constituents at once. Isotropic, Rayleigh, Henyey-Greenstein and Cornette-Shanks share one form,
+// The phase function of all constituents together: their mean by scattering. Isotropic, Rayleigh, Henyey-Greenstein and Cornette-Shanks share one form,
 //   p = norm (1 + c cos^2) (a + b (1 - cos))^(-3/2),  a = (1 - |g|)^2, b = 2 |g|   (1 + cos for g < 0),
 // in which nothing cancels near the peak: 1 + g^2 - 2 g cos = (1 - |g|)^2 + 2 |g| (1 - cos) for g >= 0.
 
@@ -13,14 +13,21 @@
 // T(s) of DESIGN 1.
 vec3 transmittanceTo(float s) { return vec3(exp(-SPECTRUM(extinction) * s)); }
 
-// Sum over constituents of sigma_k p_k, 1/(world unit sr). Takes 1 - cos and 1 + cos of the scattering angle.
-Spectrum scatteringTowardsEye(float oneMinusCos, float onePlusCos) {
+// Sum over constituents of sigma_k p_k over the sum of sigma_k, 1/sr. Takes 1 - cos and 1 + cos of the scattering angle.
+Spectrum phaseTowardsEye(float oneMinusCos, float onePlusCos) {
   float cosSquared = 0.25 * (onePlusCos - oneMinusCos) * (onePlusCos - oneMinusCos);
   Spectrum sum = Spectrum(0.0);
   for (int k = 0; k < counts.x; ++k) {
     vec4 shape = phaseShape[k];
     float d = shape.x + shape.y * (shape.w > 0.0 ? oneMinusCos : onePlusCos);
-    sum += SPECTRUM(scattering[k]) * ((1.0 + shape.z * cosSquared) * inversesqrt(d) / d);
+    sum += SPECTRUM(phaseWeight[k]) * ((1.0 + shape.z * cosSquared) * inversesqrt(d) / d);
   }
   return sum;
+}
+
+// The same of a directional light along a camera ray. theta lies between the light's travel and the direction to the eye:
+// cos = -dot(l, v), |l + v|^2 / 2 = 1 - cos.
+Spectrum phaseAlong(Ray ray) {
+  vec3 sum = lightDirection.xyz + ray.direction, difference = lightDirection.xyz - ray.direction;
+  return phaseTowardsEye(0.5 * dot(sum, sum), 0.5 * dot(difference, difference));
 }

@@ -1,7 +1,8 @@
 // March: inscatter of one light, through the shadow views of a draw, at the regular march samples, the first of each segment: along
-// the slice's row and its tree. Reads slice table, sampleEnds, row textures. Writes marched: slices x segments, inscatter
-// without the light's colour, R32F (monochrome) or RGBA16F with it; added up over the draws. CHANGED: only changedSegments.
+// the slice's row and its tree. Reads slice table, sampleEnds, row textures. Writes marched: slices x segments, light as
+// lib/stored.glsl says, R32F (grey) or RGBA32F; added up over the draws. CHANGED: only changedSegments.
 #define ROW_CURVES
+#define PHASE_APART
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"

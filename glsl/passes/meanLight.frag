@@ -4,9 +4,11 @@
 // weight, sum of weights (1); 1 x 1, R32F: the mean (2).
 #include "shared.glsl"
 #include "lib/camera.glsl"
+#include "lib/phase.glsl"
 #include "lib/slices.glsl"
 #define Light vec3
 #include "lib/stored.glsl"
+#include "lib/fromStored.glsl"
 
 layout(location = 0) out vec4 outMean;
 
@@ -20,7 +22,8 @@ void main() {
   vec2 sum = vec2(0.0);
   for (int index = 0; index < samples; index += 16) {
     vec2 p = samplePosition(ends, samples, float(index));
-    float weight = length(epipole.z * p - epipole.xy), light = brightestOf(texelFetch(marched, ivec2(slice, index >> 4), 0)) / lampSine(cameraRay(p));
+    float weight = length(epipole.z * p - epipole.xy);
+    float light = brightestOf(lightFromStored(texelFetch(marched, ivec2(slice, index >> 4), 0).rgb, cameraRay(p)));
     sum += light >= 0.0 && light < 3e38 ? weight * vec2(light, 1.0) : vec2(0.0);
   }
   outMean = vec4(sum, 0.0, 0.0);

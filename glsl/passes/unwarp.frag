@@ -9,10 +9,12 @@
 #include "lib/slices.glsl"
 #define Light vec3
 #include "lib/stored.glsl"
+#include "lib/fromStored.glsl"
 
 uniform sampler2D epipolarInscatter;
 #if SPREAD
 uniform sampler2D meanLight;
+vec3 spreadUnit; // of stored light at this pixel, as a part of the picture's mean
 #endif
 
 #if COMPOSITE
@@ -24,7 +26,7 @@ layout(location = 1) out vec4 outTransmittance;
 #endif
 
 // Sums over samples: inscatter and weight of the bilateral filter; inscatter, end coordinate and weight of the plain
-// bilinear one; squares of the brightest channel, times the bilateral weight.
+// bilinear one; squares of the brightest channel over the picture's mean, times the bilateral weight.
 struct Sums {
   vec4 agreeing, plain;
   float plainWeight, squares;
@@ -46,7 +48,8 @@ void addSlice(int slice, float sliceWeight, vec2 p, float end, inout Sums sums) 
     float agreeing = weight * agreement * agreement;
     sums.agreeing += agreeing * vec4(stored.rgb, 1.0);
 #if SPREAD
-    sums.squares += agreeing * brightestOf(stored) * brightestOf(stored);
+    float brightest = brightestOf(storedChannels(stored.rgb) * spreadUnit);
+    sums.squares += agreeing * brightest * brightest;
 #endif
     sums.plain += weight * vec4(stored.rgb, sampleEnd);
     sums.plainWeight += weight;
@@ -60,6 +63,9 @@ void main() {
   ivec2 slices = neighbourSlices(place);
   Ray ray = cameraRay(gl_FragCoord.xy);
   float coordinate = endCoordinate(ray, min(end, extinction.w));
+#if SPREAD
+  spreadUnit = lightFromStored(vec3(1.0), ray) / max(texelFetch(meanLight, ivec2(0), 0).r, 1e-37);
+#endif
   Sums sums = Sums(vec4(0.0), vec4(0.0), 0.0, 0.0);
   addSlice(slices.x, 1.0 - f, gl_FragCoord.xy, coordinate, sums);
   addSlice(slices.y, f, gl_FragCoord.xy, coordinate, sums);
@@ -74,8 +80,7 @@ void main() {
   if (!(sum.w >= thresholds.y && sum.w > 0.0)) discard;
 #if SPREAD
   // Samples that agree with the pixel but not with each other: edges of shadows run between them.
-  float least = spread.x * texelFetch(meanLight, ivec2(0), 0).r * lampSine(ray) * sums.agreeing.w;
-  float brightest = brightestOf(sums.agreeing);
+  float least = spread.x * sums.agreeing.w, brightest = brightestOf(storedChannels(sums.agreeing.rgb) * spreadUnit);
   if (sums.squares * sums.agreeing.w - brightest * brightest > least * least) discard;
 #endif
   outInscatter = vec4(min(lightFromStored(sum.rgb / sum.w, ray), limits.xxx), 0.0);

@@ -14,8 +14,23 @@ namespace {
 constexpr double kEndless = 1e30;      // a ray without end; float32 holds it, and exp(-sigma_t 1e30) is 0 or 1
 constexpr double kInvisibleDepth = 40; // optical depth behind which light counts for less than 5e-18
 constexpr double kLongestMarch = 1e15; // its square is a float32
+constexpr double kBrightest = 3e38;    // float32 holds it
 
-bool isEqualInAll(const Rgb& c) { return c[0] == c[1] && c[1] == c[2]; }
+// Each constituent's share of the scattering, per channel; where a channel does not scatter, that of the one that does
+// most.
+std::vector<glm::dvec3> sharesOf(const Medium& medium) {
+  const glm::dvec3 sum = scatteringOf(medium);
+  const int most = sum.x >= sum.y && sum.x >= sum.z ? 0 : sum.y >= sum.z ? 1 : 2;
+  std::vector<glm::dvec3> shares;
+  for (const Constituent& constituent : medium.constituents) {
+    const glm::dvec3 scattering = toGlm(constituent.scattering);
+    glm::dvec3 share(sum[most] > 0 ? scattering[most] / sum[most] : 0);
+    for (int c = 0; c < 3; ++c)
+      if (sum[c] > 0) share[c] = scattering[c] / sum[c];
+    shares.push_back(share);
+  }
+  return shares;
+}
 
 glm::vec4 phaseNormAndShape(const Constituent& c, double& norm) {
   constexpr double kPi = glm::pi<double>();
@@ -95,9 +110,10 @@ glm::dvec3 scatteringOf(const Medium& medium) {
 glm::dvec3 extinctionOf(const Medium& medium) { return scatteringOf(medium) + glm::dvec3(toGlm(medium.absorption)); }
 
 bool isMonochrome(const Medium& medium) {
-  return isEqualInAll(medium.absorption) &&
-         std::all_of(medium.constituents.begin(), medium.constituents.end(),
-                     [](const Constituent& c) { return isEqualInAll(c.scattering); });
+  const glm::dvec3 extinction = extinctionOf(medium);
+  if (extinction.x != extinction.y || extinction.y != extinction.z) return false;
+  const std::vector<glm::dvec3> shares = sharesOf(medium);
+  return std::all_of(shares.begin(), shares.end(), [](const glm::dvec3& s) { return s.x == s.y && s.y == s.z; });
 }
 
 blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
@@ -105,11 +121,12 @@ blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
   setCameraRays(block, frame);
   block.extinction =
       glm::vec4(glm::vec3(extinctionOf(frame.medium)), static_cast<float>(visibleDistance(frame.medium)));
-  int count = 0;
-  for (const Constituent& c : frame.medium.constituents) {
+  const std::vector<glm::dvec3> shares = sharesOf(frame.medium);
+  const auto count = static_cast<int>(shares.size());
+  for (std::size_t k = 0; k < shares.size(); ++k) {
     double norm = 0;
-    block.phaseShape[count] = phaseNormAndShape(c, norm);
-    block.scattering[count++] = glm::vec4(glm::vec3(glm::dvec3(toGlm(c.scattering)) * norm), 0);
+    block.phaseShape[k] = phaseNormAndShape(frame.medium.constituents[k], norm);
+    block.phaseWeight[k] = glm::vec4(glm::vec3(shares[k] * norm), 0);
   }
   block.limits = glm::vec4(sizes.maxRadiance, 0, 0, 0);
   block.counts = glm::ivec4(count, sizes.depthSamples, frame.width, frame.height);
@@ -137,13 +154,13 @@ glm::vec4 boundaryOf(const MediumBoundary& boundary, const glm::dvec3& direction
 
 } // namespace
 
-blocks::LightBlock lightBlock(const Light& light, const Camera& camera, int shadowWidth, int shadowHeight,
+blocks::LightBlock lightBlock(const Frame& frame, const Light& light, int shadowWidth, int shadowHeight,
                               int curvesSize) {
-  const glm::dvec3 origin = cameraOrigin(camera);
+  const glm::dvec3 origin = cameraOrigin(frame.camera);
   const glm::dvec3 direction =
       light.kind == LightKind::Point ? glm::dvec3(0, -1, 0) : glm::normalize(toGlm(light.direction));
   blocks::LightBlock block{};
-  block.lightColour = glm::vec4(toGlm(light.colour), 0);
+  block.lightColour = glm::vec4(glm::min(glm::dvec3(toGlm(light.colour)) * scatteringOf(frame.medium), kBrightest), 0);
   block.lightDirection = glm::vec4(direction, 0);
   block.lightPosition = glm::vec4(toGlm(light.position) - origin, std::isfinite(light.range) ? light.range : 0);
   block.cone = coneOf(light);

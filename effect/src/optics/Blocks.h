@@ -19,7 +19,7 @@ glm::dvec3 cameraOrigin(const Camera& camera);
 blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes);
 
 /// shadowWidth, shadowHeight, curvesSize: texels, 0 without a shadow map or curves.
-blocks::LightBlock lightBlock(const Light& light, const Camera& camera, int shadowWidth, int shadowHeight,
+blocks::LightBlock lightBlock(const Frame& frame, const Light& light, int shadowWidth, int shadowHeight,
                               int curvesSize = 0);
 
 /// Extinction sigma_t = scattering of all constituents + absorption, 1/world unit.
@@ -28,7 +28,8 @@ glm::dvec3 extinctionOf(const Medium& medium);
 /// Sum of all scattering coefficients, 1/world unit.
 glm::dvec3 scatteringOf(const Medium& medium);
 
-/// True if every coefficient has the same value in R, G and B.
+/// True if a ray of light fares alike in R, G and B: equal extinction, and constituents whose shares of the scattering
+/// are equal. A colour of the scattering itself is a factor of the light's.
 bool isMonochrome(const Medium& medium);
 
 } // namespace tyndall::optics

@@ -23,7 +23,7 @@ constexpr double kLeastSine = 1.0 / 300; // of the greatest; nearer to the light
 class Kernel {
 public:
   Kernel(const Frame& frame, const Light& light, const SliceTable& slices)
-      : block_(frameBlock(frame, {})), light_(lightBlock(light, frame.camera, 0, 0)),
+      : block_(frameBlock(frame, {})), light_(lightBlock(frame, light, 0, 0)),
         directional_(light.kind == LightKind::Directional) {
     toLight_ = directional_ ? -dvec3(light_.lightDirection) : dvec3(light_.lightPosition);
     distance_ = glm::length(toLight_);
@@ -153,7 +153,7 @@ private:
     for (int k = 0; k < block_.counts.x; ++k) {
       const glm::dvec4 shape(block_.phaseShape[k]);
       const double d = shape.x + shape.y * (shape.w > 0 ? 1 - cosine : 1 + cosine);
-      sum += dvec3(block_.scattering[k]) * ((1 + shape.z * cosine * cosine) / (d * std::sqrt(d)));
+      sum += dvec3(block_.phaseWeight[k]) * ((1 + shape.z * cosine * cosine) / (d * std::sqrt(d)));
     }
     return sum;
   }

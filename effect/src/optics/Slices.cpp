@@ -183,7 +183,7 @@ SliceTable makeSlices(const Frame& frame, const Light& light, int shadowWidth, i
   table.rows = static_cast<int>(2 + 2 * views);
   table.texels.assign(count * static_cast<std::size_t>(table.rows), glm::vec4(0));
   const double step = visible / table.slices;
-  const blocks::LightBlock lightMatrices = lightBlock(light, frame.camera, shadowWidth, shadowHeight);
+  const blocks::LightBlock lightMatrices = lightBlock(frame, light, shadowWidth, shadowHeight);
   const CameraRays rays(frame);
   for (std::size_t i = 0; i < count; ++i) {
     const dvec2 exit = border.at(border.start(first) + (static_cast<double>(i) + 0.5) * step);

@@ -28,17 +28,17 @@ Bytes frameBlock(const tyndall::Frame& frame, float maxRadiance) {
 }
 
 Bytes lightBlock(const tyndall::Frame& frame, const tyndall::Light& light, int shadowWidth, int shadowHeight) {
-  return bytesOf(tyndall::optics::lightBlock(light, frame.camera, shadowWidth, shadowHeight));
+  return bytesOf(tyndall::optics::lightBlock(frame, light, shadowWidth, shadowHeight));
 }
 
 glm::dmat4 cameraFromTexel(const tyndall::Frame& frame, const tyndall::Light& light, int shadowWidth,
                            int shadowHeight) {
   return glm::inverse(
-      glm::dmat4(tyndall::optics::lightBlock(light, frame.camera, shadowWidth, shadowHeight).texelFromCamera[0]));
+      glm::dmat4(tyndall::optics::lightBlock(frame, light, shadowWidth, shadowHeight).texelFromCamera[0]));
 }
 
 bool isReversedMap(const tyndall::Frame& frame, const tyndall::Light& light) {
-  return tyndall::optics::lightBlock(light, frame.camera, 1, 1).viewDepth[0].z < 0;
+  return tyndall::optics::lightBlock(frame, light, 1, 1).viewDepth[0].z < 0;
 }
 
 glm::dmat4 clipFromCamera(const tyndall::Frame& frame) {

@@ -106,7 +106,7 @@ Light shadowedSteps(Airlight light, ViewLine line, Ray ray, float s0, float s1, 
   for (int i = 0; i < steps; ++i) {
     float phi = phi0 + (float(i) + jitter) * len;
     float sine = sin(phi), r = h / max(cos(phi), 1e-6), t = r * sine, s = clamp(light.foot + t, s0, s1);
-    Spectrum value = scatteringTowardsEye(1.0 + sine, 1.0 - sine) * exp(-SPECTRUM(extinction) * (s + r));
+    Spectrum value = phaseTowardsEye(1.0 + sine, 1.0 - sine) * exp(-SPECTRUM(extinction) * (s + r));
 #if LIGHT_KIND == 2
     value *= coneFalloff(light, t, r);
 #endif
