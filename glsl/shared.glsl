@@ -19,7 +19,7 @@ UNIFORM_BLOCK(FrameBlock) {
   vec4 extinction;                    // sigma_t, rgb; w: ray length beyond which nothing visible is added
   vec4 phaseWeight[MAX_CONSTITUENTS]; // share of sigma_k in the scattering of all constituents, rgb, times the norm of p_k
   vec4 phaseShape[MAX_CONSTITUENTS];  // a, b, c, side: p_k ~ (1 + c cos^2) (a + b (1 -+ cos))^(-3/2), - for side > 0
-  vec4 limits;                        // x: largest radiance that the target's format holds
+  vec4 limits;                        // largest radiance x: that a light may add, y: that the colour's format holds, z: the output's
   ivec4 counts;                       // constituents, samples of the depth texture, image width, image height
 };
 
@@ -52,6 +52,7 @@ UNIFORM_BLOCK(EpipolarBlock) {
   vec4 rowCode;       // coded depth of a row = x depth + y; z: that of a texel without a caster; w: 65535 if it is stored in 16 bit, else 0
   vec4 lowRankRay;    // low rank (lib/lowRank.glsl): first coordinate of the grid of camera rays, samples a unit; z: terms
   vec4 lowRankLight;  // extent of the grid of light rays; y: 1 if each slice has factors of its own; z: where the grid begins
+  vec4 stored;        // colours in half floats (lib/stored.glsl): scale of each channel; w: end coordinate of the lowest code
   ivec4 grid;         // slices, samples, texels of a row, levels of the tree or 0: none
   ivec4 march;        // shadow views of a draw: the first, how many; z: 1 for the draw that brings what is outside all views; w: of the light
   ivec4 refresh;      // temporal reuse: slices that are drawn anew though nothing has changed: the first, one past the last

@@ -7,6 +7,8 @@
 
 namespace tyndall {
 
+inline constexpr float kLargestFloat = 3e38F; ///< radiance that a 32-bit float is taken to hold
+
 /// What the checks learn about a frame's textures.
 struct FrameTextures {
   struct Shadow {
@@ -15,8 +17,9 @@ struct FrameTextures {
     int curvesSize = 0; ///< texels per side of Light::curves, 0 without
   };
   int depthSamples = 1;
-  float maxRadiance = 0;       ///< largest finite value that all written formats hold
-  std::vector<Shadow> shadows; ///< one per light, 0 x 0 without a shadow map
+  float colourMax = kLargestFloat; ///< largest radiance that the colour's format holds
+  float outputMax = kLargestFloat; ///< the same of the inscatter's output
+  std::vector<Shadow> shadows;     ///< one per light, 0 x 0 without a shadow map
 };
 
 /// Checks numbers only: sizes, matrices, lights, medium, settings.

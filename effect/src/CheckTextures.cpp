@@ -76,7 +76,7 @@ float largestValue(Int format) {
   switch (static_cast<Enum>(format)) {
   case RGB32F:
   case RGBA32F:
-    return 3e38F;
+    return kLargestFloat;
   case R11F_G11F_B10F:
     return 64512; // of its 10-bit blue
   default:
@@ -135,11 +135,11 @@ Status sized(const std::string& field, Uint name, const Info& info, int width, i
                      std::to_string(width) + " x " + std::to_string(height));
 }
 
-Status checkTarget(const Functions& gl, const Frame& frame, const std::string& field, Uint name, float& maxRadiance) {
+Status checkTarget(const Functions& gl, const Frame& frame, const std::string& field, Uint name, float& largest) {
   if (name == 0) return {};
   Info info;
   if (Status s = inspect(gl, field, name, TEXTURE_2D, Use::Colour, info); !s) return s;
-  maxRadiance = std::min(maxRadiance, largestValue(info.format));
+  largest = std::min(largest, largestValue(info.format));
   return sized(field, name, info, frame.width, frame.height);
 }
 
@@ -200,12 +200,12 @@ Status checkShadow(const Functions& gl, const std::string& field, const Light& l
 } // namespace
 
 Status checkTextures(const Functions& gl, const Frame& frame, FrameTextures& textures) {
-  textures.maxRadiance = 3e38F;
+  textures.colourMax = textures.outputMax = kLargestFloat;
+  float most = kLargestFloat; // a transmittance is at most 1
   if (Status s = checkDistinct(frame); !s) return s;
-  if (Status s = checkTarget(gl, frame, "colour", frame.colour, textures.maxRadiance); !s) return s;
-  if (Status s = checkTarget(gl, frame, "output.inscatter", frame.output.inscatter, textures.maxRadiance); !s) return s;
-  if (Status s = checkTarget(gl, frame, "output.transmittance", frame.output.transmittance, textures.maxRadiance); !s)
-    return s;
+  if (Status s = checkTarget(gl, frame, "colour", frame.colour, textures.colourMax); !s) return s;
+  if (Status s = checkTarget(gl, frame, "output.inscatter", frame.output.inscatter, textures.outputMax); !s) return s;
+  if (Status s = checkTarget(gl, frame, "output.transmittance", frame.output.transmittance, most); !s) return s;
   Info depth;
   const Enum target = frame.depth.multisampled ? TEXTURE_2D_MULTISAMPLE : TEXTURE_2D;
   if (Status s = inspect(gl, "depth.texture", frame.depth.texture, target, Use::Depth, depth); !s) return s;

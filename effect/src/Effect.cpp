@@ -99,6 +99,7 @@ Status Effect::compileAll() {
     for (const gl::Variant& v : variants)
       if (!state_->programs.use(v.fragment, v.definitions, v.vertex)) return state_->shaderError();
   if (!state_->programs.use("passes/composite.frag", {})) return state_->shaderError();
+  if (!state_->programs.use("passes/copyTexels.frag", {{"CAPPED", 1}})) return state_->shaderError();
   for (const char* fragment : {"passes/copyTexels.frag", "passes/viewFixup.frag"})
     for (const char* vertex : {gl::kFullScreen, "passes/tiles.vert"})
       if (!state_->programs.use(fragment, {}, vertex)) return state_->shaderError();
@@ -152,11 +153,13 @@ Status Effect::State::renderChecked(const Frame& frame, const FrameTextures& tex
     if (!rests) return status;
   }
   Destination destination;
-  if (Status s = chooseDestination(frame, changesColour, destination); !s) return s;
+  if (Status s = chooseDestination(frame, textures, changesColour, destination); !s) return s;
   if (destination.composite) // whatever refuses must do so before anything is drawn
     if (Status s = prepareColour(frame); !s) return s;
-  beginDraws(frame, textures);
+  beginDraws(frame, textures, destination);
   if (Status s = drawLights(frame, textures, destination); !s) return s;
+  if (destination.copies)
+    if (Status s = copyToOutput(frame, destination.inscatter, frame.output.inscatter); !s) return s;
   if (!destination.composite) return {};
   if (frame.settings.view == View::Redrawn)
     if (Status s = showRedrawn(frame, Redraw::All); !s) return s;
@@ -165,11 +168,12 @@ Status Effect::State::renderChecked(const Frame& frame, const FrameTextures& tex
   return composite(frame, destination);
 }
 
-blocks::FrameBlock Effect::State::beginDraws(const Frame& frame, const FrameTextures& textures) {
+blocks::FrameBlock Effect::State::beginDraws(const Frame& frame, const FrameTextures& textures,
+                                             const Destination& destination) {
   gl.BindVertexArray(vertexArray.name());
   gl.Viewport(0, 0, frame.width, frame.height);
-  const auto lights = static_cast<float>(std::max<std::size_t>(frame.lights.size(), 1));
-  const blocks::FrameBlock block = optics::frameBlock(frame, {textures.depthSamples, textures.maxRadiance / lights});
+  const blocks::FrameBlock block =
+      optics::frameBlock(frame, {textures.depthSamples, destination.ceiling, textures.colourMax, textures.outputMax});
   upload(0, &block, sizeof block);
   return block;
 }
@@ -182,18 +186,53 @@ Status Effect::State::composite(const Frame& frame, const Destination& destinati
   return ok ? Status{} : shaderError();
 }
 
-Status Effect::State::chooseDestination(const Frame& frame, bool changesColour, Destination& destination) {
+namespace {
+
+// Why a light has nothing to add; empty if it has.
+std::string reasonToSkip(const Frame& frame, const Light& light, bool wantsInscatter) {
+  if (light.colour == Rgb{0, 0, 0}) return "the light is black";
+  if (optics::scatteringOf(frame.medium) == glm::dvec3(0)) return "the medium does not scatter";
+  if (!wantsInscatter) return "only the transmittance is wanted";
+  if (optics::isOutOfView(light, frame.camera)) return "the light's volume is outside the view";
+  return {};
+}
+
+// True if the light may be capped though the sum of all is not: one of several adds more than its part of what the
+// formats hold, so that they are to be added up in a texture of our own first.
+bool sumIsCapped(const Frame& frame, float most, std::size_t lights) {
+  if (lights < 2 || most >= kLargestFloat) return false;
+  return std::any_of(frame.lights.begin(), frame.lights.end(), [&](const Light& light) {
+    return optics::brightestInscatter(frame, light) > static_cast<double>(most) / static_cast<double>(lights);
+  });
+}
+
+} // namespace
+
+Status Effect::State::chooseDestination(const Frame& frame, const FrameTextures& textures, bool changesColour,
+                                        Destination& destination) {
   const Output& output = frame.output;
   const bool curves = std::any_of(frame.lights.begin(), frame.lights.end(),
                                   [](const Light& light) { return light.curves.texture != 0; });
+  const auto lights = static_cast<std::size_t>(std::count_if(
+      frame.lights.begin(), frame.lights.end(), [&](const Light& l) { return reasonToSkip(frame, l, true).empty(); }));
+  const float most =
+      output.inscatter ? textures.outputMax : textures.colourMax; // of the format that they are added up in
+  const bool apart = sumIsCapped(frame, most, lights);
+  destination.ceiling = most / static_cast<float>(std::max<std::size_t>(lights, 1));
   // Shaders for smoke and hair are many and long: there are none that blend into the colour at once.
-  if (output.inscatter == 0 && output.transmittance == 0 && !hasView(frame) && !curves) return {};
-  destination = {output.inscatter, output.transmittance, hasView(frame) || (changesColour && frame.colour != 0)};
-  if (!destination.composite) return {};
-  if (!destination.inscatter) destination.inscatter = targets.get(Target::Inscatter, frame.width, frame.height);
-  if (!destination.transmittance)
+  if (output.inscatter == 0 && output.transmittance == 0 && !hasView(frame) && !curves && !apart) return {};
+  destination.inscatter = apart ? 0 : output.inscatter;
+  destination.transmittance = output.transmittance;
+  destination.composite = hasView(frame) || (changesColour && frame.colour != 0);
+  destination.copies = apart && output.inscatter != 0;
+  const bool needsInscatter = destination.composite || destination.copies;
+  if (!destination.inscatter && needsInscatter) {
+    destination.inscatter = targets.get(Target::Inscatter, frame.width, frame.height);
+    destination.ceiling = kLargestFloat / static_cast<float>(std::max<std::size_t>(lights, 1));
+  }
+  if (!destination.transmittance && destination.composite)
     destination.transmittance = targets.get(Target::Transmittance, frame.width, frame.height);
-  if (destination.inscatter && destination.transmittance) return {};
+  if ((destination.inscatter || !needsInscatter) && (destination.transmittance || !destination.composite)) return {};
   return {StatusCode::OutOfMemory,
           "GL could not allocate a texture of " + std::to_string(frame.width) + " x " + std::to_string(frame.height)};
 }
@@ -223,15 +262,6 @@ Status Effect::State::attach(const Frame& frame, gl::Uint first, gl::Uint second
 }
 
 namespace {
-
-// Why a light has nothing to add; empty if it has.
-std::string reasonToSkip(const Frame& frame, const Light& light, bool wantsInscatter) {
-  if (light.colour == Rgb{0, 0, 0}) return "the light is black";
-  if (optics::scatteringOf(frame.medium) == glm::dvec3(0)) return "the medium does not scatter";
-  if (!wantsInscatter) return "only the transmittance is wanted";
-  if (optics::isOutOfView(light, frame.camera)) return "the light's volume is outside the view";
-  return {};
-}
 
 // The shader variant of a light; null: transmittance only.
 passes::exact::Variant variantOf(const Frame& frame, const Light* light, bool direct) {

@@ -18,7 +18,7 @@ namespace tyndall {
 
 namespace {
 
-const gl::Variant kCopy = {"passes/copyTexels.frag", {}};
+const gl::Variant kCopy = {"passes/copyTexels.frag", {}}, kCopyRadiance = {"passes/copyTexels.frag", {{"CAPPED", 1}}};
 
 } // namespace
 
@@ -40,7 +40,8 @@ Status Effect::State::renderReusing(const Frame& frame, const FrameTextures& tex
     return {StatusCode::OutOfMemory, "GL could not allocate the textures of Frame::reuse"};
   if (kept.composite)
     if (Status s = prepareColour(frame); !s) return s;
-  const blocks::FrameBlock block = beginDraws(frame, textures);
+  kept.ceiling = kLargestFloat / static_cast<float>(std::max<std::size_t>(frame.lights.size(), 1));
+  const blocks::FrameBlock block = beginDraws(frame, textures, kept);
   const std::vector<DrawnLight> lights = lightsToDraw(frame, textures, true, false);
   FrameKey key{block, frame.settings, {}, {}};
   for (const DrawnLight& light : lights) {
@@ -60,7 +61,8 @@ Status Effect::State::renderReusing(const Frame& frame, const FrameTextures& tex
   view.targets.hold();
   redrawnShare = -1;
   lastView = frame.reuse.view;
-  if (status) status = copyToOutputs(frame, kept);
+  if (status) status = copyToOutput(frame, kept.inscatter, frame.output.inscatter);
+  if (status) status = copyToOutput(frame, kept.transmittance, frame.output.transmittance);
   if (!status || !kept.composite) return status;
   if (!hasView(frame)) return composite(frame, kept);
   if (Status s = showRedrawn(frame, picture); !s) return s;
@@ -169,17 +171,12 @@ bool Effect::State::drawTiles(const Frame& frame, const gl::Variant& variant, gl
   return passes::changes::drawTiles(passContext(), variant, frame.width, frame.height);
 }
 
-Status Effect::State::copyToOutputs(const Frame& frame, const Destination& kept) {
-  const std::array<std::array<gl::Uint, 2>, 2> copies = {
-      {{kept.inscatter, frame.output.inscatter}, {kept.transmittance, frame.output.transmittance}}};
-  for (const auto& [from, to] : copies) {
-    if (to == 0) continue;
-    if (Status s = attach(frame, to, 0); !s) return s;
-    passes::bindTexture(passContext(), gl::Unit::ViewImage, gl::TEXTURE_2D, from);
-    setBlend(passContext(), passes::Blend::Replace);
-    if (!recorder.run("output", [&] { return drawTiles(frame, kCopy, 0); })) return shaderError();
-  }
-  return {};
+Status Effect::State::copyToOutput(const Frame& frame, gl::Uint from, gl::Uint output) {
+  if (output == 0) return {};
+  if (Status s = attach(frame, output, 0); !s) return s;
+  passes::bindTexture(passContext(), gl::Unit::ViewImage, gl::TEXTURE_2D, from);
+  setBlend(passContext(), passes::Blend::Replace);
+  return recorder.run("output", [&] { return drawTiles(frame, kCopyRadiance, 0); }) ? Status{} : shaderError();
 }
 
 } // namespace tyndall

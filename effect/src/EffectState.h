@@ -39,6 +39,8 @@ struct Effect::State {
   struct Destination {
     gl::Uint inscatter = 0, transmittance = 0; // 0, 0: straight into colour
     bool composite = false;                    // blend them, or show the view, into colour afterwards
+    bool copies = false;                       // copy the inscatter, a texture of our own, to the engine's
+    float ceiling = 0;                         // largest radiance that a light may add there
     bool direct() const { return inscatter == 0 && transmittance == 0; }
   };
 
@@ -54,7 +56,8 @@ struct Effect::State {
   void createObjects();
   Status checkContext() const;
   Status renderChecked(const Frame& frame, const FrameTextures& textures);
-  Status chooseDestination(const Frame& frame, bool changesColour, Destination& destination);
+  Status chooseDestination(const Frame& frame, const FrameTextures& textures, bool changesColour,
+                           Destination& destination);
   Status attach(const Frame& frame, gl::Uint first, gl::Uint second, bool withStencil = false);
   Status drawLights(const Frame& frame, const FrameTextures& textures, const Destination& destination);
   Status prepareColour(const Frame& frame);
@@ -69,7 +72,7 @@ struct Effect::State {
   passes::SliceInputs sliceInputs(const Frame& lit, const DrawnLight& light, const FrameTextures& textures,
                                   const Destination& destination, bool first);
   Status drawExact(const Frame& frame, const DrawnLight& light, const Destination& destination, bool first);
-  blocks::FrameBlock beginDraws(const Frame& frame, const FrameTextures& textures);
+  blocks::FrameBlock beginDraws(const Frame& frame, const FrameTextures& textures, const Destination& destination);
   Status composite(const Frame& frame, const Destination& destination);
 
   // Temporal reuse (EffectReuse.cpp).
@@ -81,7 +84,7 @@ struct Effect::State {
   Status findTiles(const Frame& frame, const std::vector<DrawnLight>& lights, ViewHistory& view, gl::Uint& tiles);
   Status keepDepth(const Frame& frame, ViewHistory& view, gl::Uint tiles);
   bool drawTiles(const Frame& frame, const gl::Variant& variant, gl::Uint tiles);
-  Status copyToOutputs(const Frame& frame, const Destination& kept);
+  Status copyToOutput(const Frame& frame, gl::Uint from, gl::Uint output);
   // Slices take one depth per pixel: a multisampled frame is rendered by exact.
   static bool usesSlices(const Frame& frame) {
     return frame.settings.technique != Technique::Exact && !frame.depth.multisampled;

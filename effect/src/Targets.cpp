@@ -18,7 +18,7 @@ namespace {
 using Format = TargetFormat;
 
 constexpr Format kR32{gl::R32F, gl::RED, 4}, kRg32{gl::RG32F, gl::RG, 8}, kRgba32{gl::RGBA32F, gl::RGBA, 16},
-    kUnorm2{gl::RG16, gl::RG, 4}, kUnorm4{gl::RGBA16, gl::RGBA, 8};
+    kRgba16{gl::RGBA16F, gl::RGBA, 8}, kUnorm2{gl::RG16, gl::RG, 4}, kUnorm4{gl::RGBA16, gl::RGBA, 8};
 
 struct Row {
   const char* name;
@@ -35,14 +35,15 @@ constexpr Row kRows[] = {
     {"sample ends", kR32, kR32, "slices x samples", "distance along the camera ray; float, for breaks and the march"},
     {"marks", kUnorm4, kUnorm4, "slices x samples / 64", "four masks of 16 samples"},
     {"refined marks", kUnorm4, kUnorm4, "slices x samples / 64", "the marks with those of the refinement"},
-    {"marched", kRgba32, kR32, "slices x (samples / 16 + 1)", "light of the regular march samples: no unit is too small"},
+    {"marched", kRgba16, kR32, "slices x (samples / 16 + 1)",
+     "light of the regular march samples, in no unit (lib/stored.glsl)"},
     {"slice sums", kRg32, kRg32, "slices x 1", "inscatter over each slice, to be averaged"},
     {"mean light", kR32, kR32, "1 x 1", "the picture's mean inscatter"},
     {"extra offsets", kR32, kR32, "slices x (samples / 64 + 1)", "where a chunk's extra samples are packed"},
-    {"extra", kRgba32, kRgba32, "slices x samples / 4", "light of the march samples between, packed; red or grey"},
-    {"extra green", kRgba32, kRgba32, "slices x samples / 4", "the same in green"},
-    {"extra blue", kRgba32, kRgba32, "slices x samples / 4", "the same in blue"},
-    {"epipolar inscatter", kRgba32, kRg32, "slices x samples", "light of all samples, with their distance"},
+    {"extra", kRgba16, kRgba32, "slices x samples / 4", "the same of the march samples between, packed; red or grey"},
+    {"extra green", kRgba16, kRgba16, "slices x samples / 4", "the same in green"},
+    {"extra blue", kRgba16, kRgba16, "slices x samples / 4", "the same in blue"},
+    {"epipolar inscatter", kRgba16, kRg32, "slices x samples", "the same of all samples, with their distance"},
     {"row depths", kRgba32, kUnorm4, "texels / 4 x rows", "the shadow map along each slice"},
     {"row shares", kUnorm4, kUnorm2, "texels / 4 x rows", "how much is lit behind a group's split; filtered or glass"},
     {"row nodes", kRgba32, kUnorm4, "texels / 16 x rows", "the tree's finest level, to gather the others from"},

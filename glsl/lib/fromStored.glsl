@@ -1,18 +1,20 @@
 // Back from what epipolar textures hold (lib/stored.glsl) to in-scattered radiance. Needs lib/phase.glsl, lib/stored.glsl.
 
-vec3 storedChannels(vec3 stored) {
+// What a texel of light stands for.
+vec3 lightOf(vec3 texel) {
 #if MONOCHROME && !GLASS
-  return stored.rrr;
+  return texel.rrr;
 #else
-  return stored;
+  return texel / stored.rgb;
 #endif
 }
 
-vec3 lightFromStored(vec3 stored, Ray ray) {
+// Radiance over what a texel of light stands for, along a ray.
+vec3 radianceUnit(Ray ray) {
 #if LIGHT_KIND == 0
-  return lightColour.rgb * vec3(phaseAlong(ray)) * storedChannels(stored);
+  return lightColour.rgb * vec3(phaseAlong(ray));
 #else
-  return lightColour.rgb * (storedChannels(stored) / lampSine(ray));
+  return lightColour.rgb / lampSine(ray);
 #endif
 }
 

@@ -16,7 +16,14 @@ float lampSine(Ray ray) {
 #endif
 }
 
-vec3 storedLight(Light light, Ray ray) { return vec3(light) * lampSine(ray); }
+// Channels are held as half floats, scaled so that no light of the scene leaves their range (effect/src/optics/Slices.cpp).
+vec3 storedLight(Light light, Ray ray) {
+#if MONOCHROME && !GLASS
+  return vec3(light) * lampSine(ray);
+#else
+  return min(stored.rgb * vec3(light) * lampSine(ray), vec3(65504.0));
+#endif
+}
 
 // Where on its ray a sample ends, for unwarp to compare with the pixel's: the binary logarithm of the distance and, as a
 // lamp's inscatter is even over the angle at the lamp, not over the distance, that angle from the ray's nearest point on.
@@ -29,19 +36,34 @@ float endCoordinate(Ray ray, float end) {
   return coordinate;
 }
 
-// Epipolar inscatter carries its sample's end coordinate.
-vec4 storedWithCoordinate(vec3 stored, float coordinate) {
+// Epipolar inscatter carries its sample's end coordinate. Beside colours there is a half float for it, whose own steps are
+// coarse and uneven: all its normal values, in their order, stand for 48 units in even steps.
+const float kCoordinateSteps = 1280.0; // of a unit
+const int kHalfLeast = 113 << 10, kHalfCount = 30 << 10; // bits of the normal half floats as a float has them, >> 13
+
+float halfOfCoordinate(float coordinate) {
+  int code = int(clamp((coordinate - stored.w) * kCoordinateSteps + 0.5, 0.0, float(2 * kHalfCount - 1)));
+  float size = intBitsToFloat((kHalfLeast + code % kHalfCount) << 13);
+  return code < kHalfCount ? -size : size;
+}
+
+float coordinateOfHalf(float value) {
+  int code = (floatBitsToInt(abs(value)) >> 13) - kHalfLeast + (value < 0.0 ? 0 : kHalfCount);
+  return float(code) / kCoordinateSteps + stored.w;
+}
+
+vec4 storedWithCoordinate(vec3 light, float coordinate) {
 #if MONOCHROME && !GLASS
-  return vec4(stored.r, coordinate, 0.0, 0.0);
+  return vec4(light.r, coordinate, 0.0, 0.0);
 #else
-  return vec4(stored, coordinate);
+  return vec4(light, halfOfCoordinate(coordinate));
 #endif
 }
 
-float storedCoordinate(vec4 stored) {
+float storedCoordinate(vec4 texel) {
 #if MONOCHROME && !GLASS
-  return stored.g;
+  return texel.g;
 #else
-  return stored.a;
+  return coordinateOfHalf(texel.a);
 #endif
 }

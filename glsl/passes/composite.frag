@@ -1,5 +1,6 @@
 // Composite: blends finished inscatter and transmittance (both image size, RGB) into the back buffer,
-// out = back * transmittance + inscatter, by dual-source blending.
+// out = back * transmittance + inscatter, by dual-source blending; inscatter to no more than the format holds.
+#include "shared.glsl"
 uniform sampler2D inscatter;
 uniform sampler2D transmittance;
 
@@ -8,6 +9,6 @@ layout(location = 0, index = 1) out vec4 outTransmittance;
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  outInscatter = vec4(texelFetch(inscatter, pixel, 0).rgb, 0.0);
+  outInscatter = vec4(min(texelFetch(inscatter, pixel, 0).rgb, limits.yyy), 0.0);
   outTransmittance = vec4(texelFetch(transmittance, pixel, 0).rgb, 1.0);
 }

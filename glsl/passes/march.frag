@@ -1,6 +1,6 @@
 // March: inscatter of one light, through the shadow views of a draw, at the regular march samples, the first of each segment: along
 // the slice's row and its tree. Reads slice table, sampleEnds, row textures. Writes marched: slices x segments, light as
-// lib/stored.glsl says, R32F (grey) or RGBA32F; added up over the draws. CHANGED: only changedSegments.
+// lib/stored.glsl says, R32F (grey) or RGBA16F; added up over the draws. CHANGED: only changedSegments.
 #define ROW_CURVES
 #define PHASE_APART
 #include "shared.glsl"

@@ -1,7 +1,7 @@
 // March extra: inscatter of one light, through the shadow views of a draw, at the marked samples between the regular ones. They come
 // packed, four to a fragment. Two neighbours among them, the sides of a break, say, share one ray: its light up to one
 // sample's end is part of that up to the next. Reads slice table, sampleEnds, marks, extraOffsets, row textures. Writes extra: slices x
-// samples / 4, four samples in one RGBA32F (grey) or in three, one a channel; added up over the draws.
+// samples / 4, four samples in RGBA32F (grey) or in three RGBA16F, one a channel; added up over the draws.
 #define ROW_CURVES
 #define PHASE_APART
 #include "shared.glsl"

@@ -23,7 +23,7 @@ void main() {
   for (int index = 0; index < samples; index += 16) {
     vec2 p = samplePosition(ends, samples, float(index));
     float weight = length(epipole.z * p - epipole.xy);
-    float light = brightestOf(lightFromStored(texelFetch(marched, ivec2(slice, index >> 4), 0).rgb, cameraRay(p)));
+    float light = brightestOf(radianceUnit(cameraRay(p)) * lightOf(texelFetch(marched, ivec2(slice, index >> 4), 0).rgb));
     sum += light >= 0.0 && light < 3e38 ? weight * vec2(light, 1.0) : vec2(0.0);
   }
   outMean = vec4(sum, 0.0, 0.0);

@@ -14,8 +14,8 @@ layout(location = 0) out vec4 outMarks;
 
 // Light of a segment's regular sample, its channels as bright as they show; a single one may not show at all.
 vec3 at(int slice, int segment, int last) {
-  vec3 shown = lightColour.rgb / max(lightColour.r, max(lightColour.g, lightColour.b));
-  return max(shown, vec3(1e-6)) * texelFetch(marched, ivec2(slice, clamp(segment, 0, last)), 0).rgb;
+  vec3 shown = lightColour.rgb / stored.rgb;
+  return max(shown / max(shown.r, max(shown.g, shown.b)), vec3(1e-6)) * texelFetch(marched, ivec2(slice, clamp(segment, 0, last)), 0).rgb;
 }
 
 // How far b lies off the line from a to c, as a part of the greatest of the three.

@@ -14,7 +14,7 @@
 uniform sampler2D epipolarInscatter;
 #if SPREAD
 uniform sampler2D meanLight;
-vec3 spreadUnit; // of stored light at this pixel, as a part of the picture's mean
+vec3 spreadUnit; // radiance of a unit of stored light at this pixel, as a part of the picture's mean
 #endif
 
 #if COMPOSITE
@@ -41,17 +41,17 @@ void addSlice(int slice, float sliceWeight, vec2 p, float end, inout Sums sums) 
   int low = min(int(y), max(int(line.w) - 1, 0));
   float f = y - float(low);
   for (int k = 0; k < 2; ++k) {
-    vec4 stored = texelFetch(epipolarInscatter, ivec2(slice, low + k), 0);
-    float weight = sliceWeight * (k == 0 ? 1.0 - f : f), sampleEnd = storedCoordinate(stored);
+    vec4 texel = texelFetch(epipolarInscatter, ivec2(slice, low + k), 0);
+    float weight = sliceWeight * (k == 0 ? 1.0 - f : f), sampleEnd = storedCoordinate(texel);
     float agreement = min(1.0, thresholds.w / max(abs(sampleEnd - end), 1e-20));
     agreement *= agreement;
     float agreeing = weight * agreement * agreement;
-    sums.agreeing += agreeing * vec4(stored.rgb, 1.0);
+    sums.agreeing += agreeing * vec4(texel.rgb, 1.0);
 #if SPREAD
-    float brightest = brightestOf(storedChannels(stored.rgb) * spreadUnit);
+    float brightest = brightestOf(lightOf(texel.rgb) * spreadUnit);
     sums.squares += agreeing * brightest * brightest;
 #endif
-    sums.plain += weight * vec4(stored.rgb, sampleEnd);
+    sums.plain += weight * vec4(texel.rgb, sampleEnd);
     sums.plainWeight += weight;
   }
 }
@@ -64,7 +64,7 @@ void main() {
   Ray ray = cameraRay(gl_FragCoord.xy);
   float coordinate = endCoordinate(ray, min(end, extinction.w));
 #if SPREAD
-  spreadUnit = lightFromStored(vec3(1.0), ray) / max(texelFetch(meanLight, ivec2(0), 0).r, 1e-37);
+  spreadUnit = radianceUnit(ray) / max(texelFetch(meanLight, ivec2(0), 0).r, 1e-37);
 #endif
   Sums sums = Sums(vec4(0.0), vec4(0.0), 0.0, 0.0);
   addSlice(slices.x, 1.0 - f, gl_FragCoord.xy, coordinate, sums);
@@ -80,9 +80,9 @@ void main() {
   if (!(sum.w >= thresholds.y && sum.w > 0.0)) discard;
 #if SPREAD
   // Samples that agree with the pixel but not with each other: edges of shadows run between them.
-  float least = spread.x * sums.agreeing.w, brightest = brightestOf(storedChannels(sums.agreeing.rgb) * spreadUnit);
+  float least = spread.x * sums.agreeing.w, brightest = brightestOf(lightOf(sums.agreeing.rgb) * spreadUnit);
   if (sums.squares * sums.agreeing.w - brightest * brightest > least * least) discard;
 #endif
-  outInscatter = vec4(min(lightFromStored(sum.rgb / sum.w, ray), limits.xxx), 0.0);
+  outInscatter = vec4(min(radianceUnit(ray) * lightOf(sum.rgb / sum.w), limits.xxx), 0.0);
   outTransmittance = vec4(transmittanceTo(end), 1.0);
 }

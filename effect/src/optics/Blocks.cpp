@@ -100,6 +100,28 @@ glm::dvec3 cameraOrigin(const Camera& camera) {
   return eyeOf(depthFromClip(camera.clipDepth) * toGlm(camera.clipFromView) * toGlm(camera.viewFromWorld));
 }
 
+double farthestEnd(const blocks::FrameBlock& block) {
+  const double sky = block.depthToT.w;
+  if (block.depthToT.z != 0) return std::max(glm::length(glm::dvec3(block.nearStep)), sky);
+  double far = 0;
+  for (const glm::dvec2 corner : {glm::dvec2(-0.5), glm::dvec2(0.5, -0.5), glm::dvec2(-0.5, 0.5), glm::dvec2(0.5)}) {
+    const glm::dvec2 p = corner * glm::dvec2(block.counts.z, block.counts.w);
+    const glm::dvec4 point =
+        glm::dvec4(block.farPoint[0]) + p.x * glm::dvec4(block.farPoint[1]) + p.y * glm::dvec4(block.farPoint[2]);
+    if (point.w > 1e-30) far = std::max(far, glm::length(glm::dvec3(point)) / point.w);
+  }
+  return std::max(far, sky);
+}
+
+glm::dvec3 peakPhase(const blocks::FrameBlock& block) {
+  glm::dvec3 peak(0);
+  for (int k = 0; k < block.counts.x; ++k) {
+    const glm::dvec4 shape(block.phaseShape[k]);
+    peak += glm::dvec3(block.phaseWeight[k]) * ((1 + shape.z) / std::pow(shape.x, 1.5));
+  }
+  return peak;
+}
+
 glm::dvec3 scatteringOf(const Medium& medium) {
   glm::dvec3 sum(0);
   for (const Constituent& c : medium.constituents)
@@ -128,7 +150,7 @@ blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
     block.phaseShape[k] = phaseNormAndShape(frame.medium.constituents[k], norm);
     block.phaseWeight[k] = glm::vec4(glm::vec3(shares[k] * norm), 0);
   }
-  block.limits = glm::vec4(sizes.maxRadiance, 0, 0, 0);
+  block.limits = glm::vec4(sizes.lightCeiling, sizes.colourMax, sizes.outputMax, 0);
   block.counts = glm::ivec4(count, sizes.depthSamples, frame.width, frame.height);
   return block;
 }

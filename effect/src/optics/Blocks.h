@@ -9,8 +9,10 @@ namespace tyndall::optics {
 
 /// What the blocks need of a frame beyond the public structs.
 struct FrameSizes {
-  int depthSamples = 1;  ///< samples per pixel of the scene depth
-  float maxRadiance = 0; ///< largest finite value of the narrowest target format
+  int depthSamples = 1;   ///< samples per pixel of the scene depth
+  float lightCeiling = 0; ///< largest radiance that a light may add
+  float colourMax = 0;    ///< largest radiance that Frame::colour's format holds
+  float outputMax = 0;    ///< the same of Output::inscatter
 };
 
 /// The point that shader positions are relative to: the eye, or the clip volume's centre if orthographic.
@@ -21,6 +23,13 @@ blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes);
 /// shadowWidth, shadowHeight, curvesSize: texels, 0 without a shadow map or curves.
 blocks::LightBlock lightBlock(const Frame& frame, const Light& light, int shadowWidth, int shadowHeight,
                               int curvesSize = 0);
+
+/// How far camera rays run: to the far plane or the sky, world units; with a far plane at infinity few run farther than
+/// to the sky.
+double farthestEnd(const blocks::FrameBlock& block);
+
+/// The greatest value of the phase function of all constituents together, per channel, 1/sr.
+glm::dvec3 peakPhase(const blocks::FrameBlock& block);
 
 /// Extinction sigma_t = scattering of all constituents + absorption, 1/world unit.
 glm::dvec3 extinctionOf(const Medium& medium);

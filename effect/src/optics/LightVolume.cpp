@@ -162,6 +162,36 @@ LightShare shareOf(const Light& light, const Camera& camera, const Medium& mediu
   return {std::max(met, 0.5) / (kColumns * kRows), colour * std::min(2 * reached.angle, glm::pi<double>()) / distance};
 }
 
+namespace {
+
+// How near a ray through a pixel's centre comes to a lamp that is half a pixel away, at least.
+double halfPixelAt(const dvec3& lamp, const blocks::FrameBlock& block) {
+  const dvec3 centre(block.farPoint[0]), x(block.farPoint[1]), y(block.farPoint[2]);
+  const double half = 0.5 * std::min(glm::length(x), glm::length(y));
+  if (block.depthToT.z != 0) return half;
+  double farthest = 0; // of the corners: there a pixel's angle is least
+  for (const double side : {-0.5, 0.5})
+    farthest =
+        std::max({farthest, glm::length(centre + side * (double(block.counts.z) * x + double(block.counts.w) * y)),
+                  glm::length(centre + side * (double(block.counts.z) * x - double(block.counts.w) * y))});
+  return half * glm::length(centre) / (farthest * farthest) * glm::length(lamp);
+}
+
+} // namespace
+
+double brightestInscatter(const Frame& frame, const Light& light) {
+  const blocks::FrameBlock block = frameBlock(frame, {});
+  const blocks::LightBlock lamp = lightBlock(frame, light, 0, 0);
+  const dvec3 phase = peakPhase(block);
+  const double passed = glm::pi<double>() / std::max(halfPixelAt(dvec3(lamp.lightPosition), block), 1e-300);
+  double brightest = 0;
+  for (int c = 0; c < 3; ++c)
+    if (lamp.lightColour[c] > 0)
+      brightest = std::max(brightest, lamp.lightColour[c] * phase[c] *
+                                          (light.kind == LightKind::Directional ? 1 / block.extinction[c] : passed));
+  return brightest;
+}
+
 bool isOutOfView(const Light& light, const Camera& camera) {
   if (light.kind == LightKind::Directional) return false;
   const ReachedVolume reached(light, camera);

@@ -19,4 +19,8 @@ struct LightShare {
 /// the irradiance over a line that passes it at the eye's distance.
 LightShare shareOf(const Light& light, const Camera& camera, const Medium& medium);
 
+/// What no pixel's inscatter from the light exceeds, but for those within half a pixel of a lamp, where it has no
+/// bound.
+double brightestInscatter(const Frame& frame, const Light& light);
+
 } // namespace tyndall::optics

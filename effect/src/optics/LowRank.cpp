@@ -28,7 +28,7 @@ public:
     toLight_ = directional_ ? -dvec3(light_.lightDirection) : dvec3(light_.lightPosition);
     distance_ = glm::length(toLight_);
     axis_ = toLight_ / std::max(distance_, 1e-300);
-    end_ = farthest();
+    end_ = farthestEnd(block_);
     const double seen = std::min(end_, kDarkShare * block_.extinction.w);
     for (int i = 0; i < slices.slices; ++i) {
       const glm::dvec4 ends(slices.texels[static_cast<std::size_t>(i)]);
@@ -127,20 +127,6 @@ private:
     mostCosine_ = std::max(mostCosine_, cosine);
     lowest_ = std::min(lowest_, value);
     highest_ = std::max(highest_, value);
-  }
-
-  // How far rays run: to the far plane or the sky; with a far plane at infinity few run farther than to the sky.
-  double farthest() const {
-    if (block_.depthToT.z != 0)
-      return std::max(glm::length(dvec3(block_.nearStep)), static_cast<double>(block_.depthToT.w));
-    double far = 0;
-    for (const glm::dvec2 corner : {glm::dvec2(-0.5), glm::dvec2(0.5, -0.5), glm::dvec2(-0.5, 0.5), glm::dvec2(0.5)}) {
-      const glm::dvec2 p = corner * glm::dvec2(block_.counts.z, block_.counts.w);
-      const glm::dvec4 point =
-          glm::dvec4(block_.farPoint[0]) + p.x * glm::dvec4(block_.farPoint[1]) + p.y * glm::dvec4(block_.farPoint[2]);
-      if (point.w > 1e-30) far = std::max(far, glm::length(dvec3(point)) / point.w);
-    }
-    return std::max(far, static_cast<double>(block_.depthToT.w));
   }
 
   // The angle at the lamp between the eye and the point at s.

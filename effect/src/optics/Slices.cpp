@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace tyndall::optics {
@@ -160,6 +161,27 @@ glm::vec4 rowCodeOf(const blocks::LightBlock& light, std::size_t views) {
   return glm::vec4(scale, -near * scale, 1, kMost);
 }
 
+// How epipolar textures hold colours in half floats: the largest that a ray can bring near the upper end of their
+// range, so that most of it lies below. A directional light's is the shorter of the mean free path and the longest ray;
+// a lamp's, times the sine, is half a turn of the phase function's peak over the lamp's distance, 256 times less than
+// the range holds, since a ray of an orthographic camera, or past a lamp beside the eye, comes nearer to it than that.
+glm::vec4 storedOf(const Frame& frame, const Light& light, const blocks::LightBlock& block) {
+  constexpr double kLargestHalf = 65504, kCoordinates = 48; // units that lib/stored.glsl has codes for
+  const blocks::FrameBlock camera = frameBlock(frame, {});
+  const double longest = std::min<double>(farthestEnd(camera), camera.extinction.w);
+  dvec3 scale(0.5 * kLargestHalf / longest);
+  if (light.kind == LightKind::Directional) {
+    scale = glm::max(scale, 0.5 * kLargestHalf * dvec3(camera.extinction));
+  } else {
+    double distance = glm::length(dvec3(block.lightPosition));
+    if (camera.depthToT.z != 0) distance = std::max(distance, 0.5 * glm::length(dvec3(camera.nearStep)));
+    const dvec3 peak = peakPhase(camera);
+    scale =
+        dvec3(kLargestHalf / 256 / glm::pi<double>() * std::max(distance, 1e-30) / std::max({peak.x, peak.y, peak.z}));
+  }
+  return glm::vec4(glm::clamp(scale, 1e-30, 1e30), std::log2(longest) + 2 - kCoordinates);
+}
+
 } // namespace
 
 SliceTable makeSlices(const Frame& frame, const Light& light, int shadowWidth, int shadowHeight) {
@@ -209,6 +231,7 @@ SliceTable makeSlices(const Frame& frame, const Light& light, int shadowWidth, i
   block.border = glm::vec4(border.low, border.high);
   block.sliceMap = glm::vec4(border.start(first), std::max(step, 1e-9), border.perimeter(), closed ? 1 : 0);
   block.rowCode = rowCodeOf(lightMatrices, views);
+  block.stored = storedOf(frame, light, lightMatrices);
   block.grid = glm::ivec4(table.slices, samples, 0, 0);
   return table;
 }

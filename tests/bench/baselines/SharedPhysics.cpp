@@ -23,7 +23,7 @@ Bytes bytesOf(const Block& block) {
 
 Bytes frameBlock(const tyndall::Frame& frame, float maxRadiance) {
   tyndall::optics::FrameSizes sizes;
-  sizes.maxRadiance = maxRadiance;
+  sizes.lightCeiling = maxRadiance;
   return bytesOf(tyndall::optics::frameBlock(frame, sizes));
 }
 

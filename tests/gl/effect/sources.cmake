@@ -21,6 +21,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/ReuseTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MemoryTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/NonFiniteTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/RadianceTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/RefusalRig.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SceneRig.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ShaftRig.cpp
