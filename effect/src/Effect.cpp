@@ -69,9 +69,12 @@ Status Effect::render(const Frame& frame) {
   FrameTextures textures;
   if (Status s = checkTextures(state.gl, frame, textures); !s) return s;
   Frame boxed;
-  if (hasMeshes(frame)) {
-    boxed = frame;
-    if (Status s = state.objectBoxes.boxesOf(frame, boxed.objects); !s) return s;
+  if (hasMeshes(frame)) boxed = frame;
+  if (frame.reuse.changes != Changes::Unknown) {
+    ViewHistory& view = state.histories.of(frame.reuse.view);
+    if (frame.reuse.changes == Changes::Detect || !view.isFollowedBy(frame)) view.lastShapes.clear();
+    if (hasMeshes(frame))
+      if (Status s = state.objectBoxes.makeBoxes(boxed, view.lastShapes); !s) return s;
   }
   state.recorder.beginFrame();
   state.redrawnShare = 1;

@@ -37,6 +37,22 @@ auto fieldsOf(const passes::exact::Variant& v) {
 
 bool isStated(std::uint64_t version, std::uint64_t last) { return version != 0 && version == last; }
 
+// True if the same textures are stated to hold the same.
+bool isStated(const DepthContent& now, const DepthContent& last) {
+  return now.texture == last.texture && isStated(now.version, last.version);
+}
+
+bool isStated(const MapContent& now, const MapContent& last) {
+  return now.shadow == last.shadow && now.glassColour == last.glassColour && now.glassDepth == last.glassDepth &&
+         isStated(now.version, last.version);
+}
+
+DepthContent depthOf(const Frame& frame) { return {frame.depth.texture, frame.depth.version}; }
+
+MapContent mapsOf(const Light& light) {
+  return {light.shadow.texture, light.glass.colour, light.glass.depth, light.shadow.version};
+}
+
 bool same(const AvsmCurves& a, const AvsmCurves& b) {
   return a.texture == b.texture && (a.texture == 0 || isStated(a.version, b.version));
 }
@@ -70,9 +86,9 @@ bool ViewHistory::rests() {
 Redraw ViewHistory::plan(const FrameKey& key, const Frame& frame) {
   const bool detects = frame.reuse.changes == Changes::Detect;
   bool all = !valid_ || !same(key.block, key_.block) || fieldsOf(key.settings) != fieldsOf(key_.settings) ||
-             key.drawn != key_.drawn || (!detects && frame.reuse.frame != frame_ + 1);
+             key.drawn != key_.drawn || (!detects && !isFollowedBy(frame));
   const bool inParts = drawsInParts(frame) && !key.drawn.empty();
-  const bool sameDepth = detects ? isStated(frame.depth.version, depthVersion_) : frame.objects.empty();
+  const bool sameDepth = detects ? isStated(depthOf(frame), depth_) : frame.objects.empty();
   all = all || (!sameDepth && (!inParts || !keepsDepth));
   while (lights_.size() < frame.lights.size())
     lights_.push_back(std::make_unique<LightHistory>(gl_));
@@ -92,16 +108,16 @@ Redraw ViewHistory::plan(const FrameKey& key, const Frame& frame) {
 void ViewHistory::planLight(const FrameKey& key, std::size_t i, const Frame& frame, bool sameFrame) {
   const std::size_t index = key.drawn[i];
   LightHistory& light = *lights_[index];
-  const std::uint64_t version = frame.lights[index].shadow.version;
+  const MapContent maps = mapsOf(frame.lights[index]);
   const bool hasMap = frame.lights[index].shadow.texture != 0, detects = frame.reuse.changes == Changes::Detect;
   const bool moves = !frame.objects.empty();
-  light.comparesEnds = detects ? !isStated(frame.depth.version, depthVersion_) : moves;
-  light.comparesRows = hasMap && (detects ? !isStated(version, light.mapVersion) : moves);
+  light.comparesEnds = detects ? !isStated(depthOf(frame), depth_) : moves;
+  light.comparesRows = hasMap && (detects ? !isStated(maps, light.maps) : moves);
   const bool changes = light.comparesEnds || light.comparesRows;
   const bool kept = sameFrame && light.valid && same(key.lights[i], light.key);
   light.redraw = !kept ? Redraw::All : changes || frame.reuse.refreshFrames > 0 ? Redraw::Part : Redraw::Nothing;
   light.key = key.lights[i];
-  light.mapVersion = version;
+  light.maps = maps;
   light.segments = light.changed = 0;
 }
 
@@ -112,7 +128,7 @@ void ViewHistory::finish(const Frame& frame, bool drawn) {
     if (!used && lights_[i]->valid) lights_[i] = std::make_unique<LightHistory>(gl_); // gives its textures up
     lights_[i]->valid = drawn && used;
   }
-  depthVersion_ = frame.depth.version;
+  depth_ = depthOf(frame);
   frame_ = frame.reuse.frame;
   ++frames;
   fullShare_ = frame.reuse.fullShare;

@@ -2,6 +2,7 @@
 // what the epipolar pipeline made. Decides what of it a frame draws anew.
 #pragma once
 
+#include "ObjectBoxes.h"
 #include "PassRecorder.h"
 #include "Targets.h"
 #include "passes/Rows.h"
@@ -13,6 +14,16 @@
 namespace tyndall {
 
 enum class Redraw { Nothing, Part, All };
+
+/// Which textures they are, and the version of what they hold: a version belongs to its texture.
+struct DepthContent {
+  gl::Uint texture = 0;
+  std::uint64_t version = 0;
+};
+struct MapContent {
+  gl::Uint shadow = 0, glassColour = 0, glassDepth = 0;
+  std::uint64_t version = 0;
+};
 
 /// All that a light's passes read, but for textures.
 struct LightKey {
@@ -34,7 +45,7 @@ struct LightHistory {
   std::array<Targets, 2> ends, rows;
   std::size_t endsSide = 0, rowsSide = 0;
   LightKey key;
-  std::uint64_t mapVersion = 0;
+  MapContent maps;
   bool valid = false; ///< of the view's last frame
 
   // What this frame does with it.
@@ -79,6 +90,9 @@ public:
   /// then.
   void finish(const Frame& frame, bool drawn);
 
+  /// True if the frame's objects say what changed since the last one.
+  bool isFollowedBy(const Frame& frame) const { return valid_ && frame.reuse.frame == frame_ + 1; }
+
   /// Of the last frame; waits for what the GPU has counted.
   double redrawnShare();
 
@@ -88,6 +102,7 @@ public:
 
   Targets targets;         ///< inscatter, transmittance, last depth
   bool keepsDepth = false; ///< the last depth is the last frame's
+  LastShapes lastShapes;   ///< of meshes among the frames' objects
   std::uint64_t age = 0;   ///< of its last use
   int frames = 0;          ///< drawn, for Reuse::refreshFrames
 
@@ -100,7 +115,8 @@ private:
   FrameKey key_;
   std::vector<std::unique_ptr<LightHistory>> lights_; // by their index in the frame
   bool valid_ = false;
-  std::uint64_t depthVersion_ = 0, frame_ = 0;
+  DepthContent depth_;
+  std::uint64_t frame_ = 0;
   float fullShare_ = 1;
   Redraw picture_ = Redraw::All;
   // Frames that reuse nothing are not kept: 1 frame after the second such in a row, then 2, 4, 8, 16.

@@ -15,9 +15,16 @@ namespace {
 
 constexpr std::size_t kRemembered = 1024;
 
-bool isSame(const MeshVertices& a, const MeshVertices& b) {
-  return a.buffer == b.buffer && a.offset == b.offset && a.stride == b.stride && a.count == b.count &&
-         a.version == b.version;
+bool isSameMesh(const MeshVertices& a, const MeshVertices& b) {
+  return a.buffer == b.buffer && a.offset == b.offset && a.stride == b.stride && a.count == b.count;
+}
+
+void compareAll(Frame& frame) {
+  frame.objects.clear();
+  frame.reuse.changes = Changes::Detect;
+  frame.depth.version = 0;
+  for (Light& light : frame.lights)
+    light.shadow.version = 0;
 }
 
 Mat4 toMat4(const glm::dmat4& m) {
@@ -33,22 +40,45 @@ Status invalid(const std::string& field, const std::string& rule) {
 
 } // namespace
 
-Status ObjectBoxes::boxesOf(const Frame& frame, std::vector<MovingObject>& boxes) {
-  boxes = frame.objects;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    MovingObject& object = boxes[i];
+const glm::dmat4* LastShapes::meshFromBox(const MeshVertices& mesh) const {
+  const auto found =
+      std::find_if(shapes_.begin(), shapes_.end(), [&](const Shape& s) { return isSameMesh(s.mesh, mesh); });
+  return found == shapes_.end() ? nullptr : &found->meshFromBox;
+}
+
+void LastShapes::set(const MeshVertices& mesh, const glm::dmat4& meshFromBox) {
+  const auto found =
+      std::find_if(shapes_.begin(), shapes_.end(), [&](const Shape& s) { return isSameMesh(s.mesh, mesh); });
+  const Shape shape{mesh, meshFromBox};
+  if (found != shapes_.end()) shapes_.erase(found);
+  if (shapes_.size() == kRemembered) shapes_.erase(shapes_.begin());
+  shapes_.push_back(shape);
+}
+
+Status ObjectBoxes::makeBoxes(Frame& frame, LastShapes& shapes) {
+  bool knowsAll = true;
+  LastShapes now = shapes;
+  for (std::size_t i = 0; i < frame.objects.size(); ++i) {
+    MovingObject& object = frame.objects[i];
     if (object.mesh.buffer == 0) continue;
     glm::dmat4 meshFromBox;
     if (Status s = fit("objects[" + std::to_string(i) + "].mesh.", object.mesh, meshFromBox); !s) return s;
-    for (Mat4* pose : {&object.worldFromObject, &object.lastWorldFromObject})
-      *pose = toMat4(optics::toGlm(*pose) * meshFromBox);
+    const glm::dmat4* last = shapes.meshFromBox(object.mesh);
+    knowsAll = knowsAll && last;
+    object.worldFromObject = toMat4(optics::toGlm(object.worldFromObject) * meshFromBox);
+    object.lastWorldFromObject = toMat4(optics::toGlm(object.lastWorldFromObject) * (last ? *last : meshFromBox));
+    now.set(object.mesh, meshFromBox);
     object.mesh = {};
   }
+  shapes = now;
+  if (!knowsAll) compareAll(frame);
   return {};
 }
 
 Status ObjectBoxes::fit(const std::string& field, const MeshVertices& mesh, glm::dmat4& meshFromBox) {
-  const auto same = std::find_if(fitted_.begin(), fitted_.end(), [&](const Fitted& f) { return isSame(f.mesh, mesh); });
+  const auto same = std::find_if(fitted_.begin(), fitted_.end(), [&](const Fitted& f) {
+    return isSameMesh(f.mesh, mesh) && f.mesh.version == mesh.version;
+  });
   if (mesh.version != 0 && same != fitted_.end()) {
     std::rotate(same, same + 1, fitted_.end());
     meshFromBox = fitted_.back().meshFromBox;

@@ -1,4 +1,5 @@
-// The boxes of Frame::objects: those of meshes are fitted when first seen, and remembered.
+// The boxes of Frame::objects: those of meshes are fitted when first seen, and remembered; and what shape a view's last
+// frame saw them in.
 #pragma once
 
 #include "gl/Functions.h"
@@ -9,13 +10,32 @@
 
 namespace tyndall {
 
+/// The meshes that a view's frames have named, in the shape that they had in its last frame: one that deforms covers
+/// the box of that shape, too.
+class LastShapes {
+public:
+  /// Null for a mesh that was not named.
+  const glm::dmat4* meshFromBox(const MeshVertices& mesh) const;
+  void set(const MeshVertices& mesh, const glm::dmat4& meshFromBox);
+  void clear() { shapes_.clear(); }
+
+private:
+  struct Shape {
+    MeshVertices mesh;
+    glm::dmat4 meshFromBox;
+  };
+  std::vector<Shape> shapes_;
+};
+
 class ObjectBoxes {
 public:
   explicit ObjectBoxes(const gl::Functions& gl) : gl_(gl) {}
 
-  /// The frame's objects, all as boxes. Reads buffers, for which it waits, and binds them: call it under a StateGuard.
-  /// Errors name the field: a buffer that does not exist, is mapped, is too short or holds what is not finite.
-  Status boxesOf(const Frame& frame, std::vector<MovingObject>& boxes);
+  /// Makes boxes of the frame's objects, and enters their shapes. Without the last shape of one of them the frame
+  /// becomes one that compares all (Changes::Detect, no version). Reads buffers, for which it waits, and binds them:
+  /// call it under a StateGuard. Errors name the field: a buffer that does not exist, is mapped, is too short or holds
+  /// what is not finite.
+  Status makeBoxes(Frame& frame, LastShapes& shapes);
 
 private:
   struct Fitted {

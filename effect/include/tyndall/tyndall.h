@@ -75,7 +75,7 @@ struct SceneDepth {
   std::uint32_t texture = 0; ///< GL_TEXTURE_2D or GL_TEXTURE_2D_MULTISAMPLE, a depth format or R32F, level 0
   bool multisampled = false; ///< true for GL_TEXTURE_2D_MULTISAMPLE; inscatter is then the mean over a pixel's samples
   std::uint64_t version =
-      0; ///< of what the texture holds, for Frame::reuse: any number that differs says it changed; 0: not known
+      0; ///< of what this texture holds, for Frame::reuse: any number that differs says it changed; 0: not known
 };
 
 enum class LightKind { Directional, Point, Spot };
@@ -97,7 +97,7 @@ struct ShadowMap {
   ClipDepth clipDepth = ClipDepth::NegativeOneToOne;
   std::vector<ShadowView>
       views; ///< 1 to 6: 1-4 cascades (finest first) for a directional light, 1 for a spot, 6 for a point
-  std::uint64_t version = 0; ///< of what the texture and the glass map hold, as SceneDepth::version
+  std::uint64_t version = 0; ///< of what these textures, the glass map's too, hold, as SceneDepth::version
 };
 
 /// Stained glass seen from the light through the same views as the shadow map. Light is tinted behind the glass.
@@ -267,7 +267,12 @@ struct Reuse {
 };
 
 /// The vertices of a mesh in a GL buffer: three floats each. They are read back once to fit a box around them, so that
-/// from then on a mesh costs what a box does, whatever its triangles. The last 1024 meshes are remembered.
+/// from then on a mesh costs what a box does, whatever its triangles. The last 1024 meshes are remembered, and for each
+/// view in what shape its last frame saw them: a mesh whose vertices the engine changes has a new version, and covers
+/// both shapes. A frame that is the first to name a mesh since the view was last drawn in full compares all of depth
+/// and maps once: name it in that full frame, too, and it does not. A mesh that a vertex shader deforms (skinning,
+/// wind) has its rest shape in the buffer: pass a box instead, one that holds all of its poses, in worldFromObject and
+/// lastWorldFromObject.
 struct MeshVertices {
   std::uint32_t buffer = 0;  ///< name of a buffer, not mapped but persistently; 0: no mesh
   std::uint64_t offset = 0;  ///< bytes to the first vertex's position

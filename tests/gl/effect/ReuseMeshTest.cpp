@@ -15,7 +15,7 @@ namespace {
 // The cube from -1 to 1 as an engine may hold it: between other things, a position every 20 bytes.
 class CubeBuffer {
 public:
-  CubeBuffer() { fill(1); }
+  CubeBuffer() : buffer_((tests::testContext(), host::makeBuffer())) { fill(1); }
   void fill(float half) {
     std::vector<float> data(2 + 8 * 5, std::numeric_limits<float>::quiet_NaN());
     for (std::size_t i = 0; i < 8; ++i)
@@ -29,7 +29,7 @@ public:
   MeshVertices vertices(std::uint64_t version) const { return {buffer_.name(), 8, 20, 8, version}; }
 
 private:
-  host::GlBuffer buffer_ = host::makeBuffer();
+  host::GlBuffer buffer_;
 };
 
 } // namespace
@@ -46,7 +46,8 @@ TEST_CASE("a mesh as moving object: its vertices are read once per version, and 
         moveTo(other, f), reused(other);
       return tests::testEffect().statistics().redrawnShare;
     }();
-    if (frame > 0) rig.scene.frame.objects[0].mesh = cube.vertices(frame < 2 ? 1 : 0);
+    if (frame == 0) rig.scene.frame.objects = {between(tumbling(0), tumbling(0))}; // so that its shape is known
+    rig.scene.frame.objects[0].mesh = cube.vertices(frame < 2 ? 1 : 0);
     if (frame == 1) cube.fill(1);
     const Picture picture = reused(rig);
     checkSame(picture, full(rig));
@@ -62,6 +63,32 @@ TEST_CASE("a mesh as moving object: its vertices are read once per version, and 
     CHECK(static_cast<bool>(status) == (version == 1));
     if (!status) CHECK(status.message.find("objects[0].mesh.buffer") != std::string::npos);
     if (!status) CHECK(status.message.find("vertex 0 is not finite") != std::string::npos);
+  }
+}
+
+TEST_CASE("a mesh that deforms in place covers the shape that it had in the view's last frame") {
+  // Half the cube's width in each frame: it grows, shrinks, and rests; and the frames that name it.
+  const float halves[] = {1, 1, 2.5F, 0.4F, 0.4F, 1.5F};
+  for (const bool fromTheFirst : {true, false}) {
+    CubeBuffer cube;
+    tests::ShaftRig rig = sunlit(Changes::Objects);
+    float last = 0;
+    for (int frame = 0; frame < 6; ++frame) {
+      CAPTURE(fromTheFirst, frame);
+      const float half = halves[frame];
+      cube.fill(half);
+      rig.setMoving({glm::scale(tumbling(0), glm::dvec3(half))});
+      ++rig.scene.frame.reuse.frame;
+      rig.scene.frame.objects.clear();
+      if (half != last && (frame > 0 || fromTheFirst)) {
+        rig.scene.frame.objects = {between(tumbling(0), tumbling(0))};
+        rig.scene.frame.objects[0].mesh = cube.vertices(static_cast<std::uint64_t>(1 + frame));
+      }
+      last = half;
+      const Picture picture = reused(rig);
+      checkSame(picture, full(rig));
+      CHECK((frame == 0 || picture.share < 1));
+    }
   }
 }
 

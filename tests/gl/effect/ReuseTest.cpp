@@ -126,3 +126,36 @@ TEST_CASE("the mask holds every pixel that changes, and without a tile along its
       CHECK(tight);
     }
 }
+
+TEST_CASE("a version belongs to its texture: another one with the same version is compared") {
+  for (const char* which : {"depth", "shadow map", "glass"}) {
+    CAPTURE(which);
+    const auto rigAt = [&](int pose) {
+      tests::ShaftRig rig(64, 48);
+      rig.addLight(sun(), 64, true);
+      rig.setMoving({glm::scale(tumbling(pose), glm::dvec3(3))});
+      return rig;
+    };
+    tests::ShaftRig first = rigAt(0), second = rigAt(9); // both live: no name is given twice
+    begin(first, Changes::Detect);
+    Frame& frame = first.scene.frame;
+    Light& light = frame.lights[0];
+    const Light& other = second.scene.frame.lights[0];
+    light.shadow.version = 7;
+    frame.depth.version = 3;
+    reused(first);
+    CHECK(reused(first).share == 0); // the same textures and versions: nothing is drawn
+    if (which == std::string("depth")) frame.depth.texture = second.scene.frame.depth.texture;
+    if (which == std::string("shadow map")) light.shadow.texture = other.shadow.texture;
+    if (which == std::string("glass")) {
+      reference::ShadowImage darker = second.scene.shadow(0);
+      for (float& tint : darker.glassColour)
+        tint *= 0.5F;
+      second.scene.setShadow(0, darker);
+      light.glass = other.glass;
+    }
+    const Picture picture = reused(first);
+    CHECK(picture.share > 0);
+    checkSame(picture, full(first));
+  }
+}
