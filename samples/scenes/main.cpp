@@ -1,35 +1,14 @@
 // tyndall-make-scenes OUTDIR [NAME...] [--turntable MODEL.glb]: writes the sample scenes as OUTDIR/NAME.glb, or a
 // model's own.
+#include "Generators.h"
 #include "GlbWriter.h"
 #include "MeshBuilder.h"
-#include "Scene.h"
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <functional>
-#include <map>
 
 namespace {
-
-const std::map<std::string, std::function<scenes::Scene()>>& generators() {
-  static const std::map<std::string, std::function<scenes::Scene()>> kGenerators = {
-      {"nave", [] { return scenes::makeNave(false); }},
-      {"nave-glass", [] { return scenes::makeNave(true); }},
-      {"forest", scenes::makeForest},
-      {"terrain", scenes::makeTerrain},
-      {"cage", scenes::makeCage},
-      {"stage", [] { return scenes::makeStage(false); }},
-      {"concert", [] { return scenes::makeStage(true); }},
-      {"projector", scenes::makeProjector},
-      {"orrery", scenes::makeOrrery},
-      {"pendulum", scenes::makePendulum},
-      {"smoke", scenes::makeSmoke},
-      {"hair", scenes::makeHair},
-      {"censer", scenes::makeCenser},
-  };
-  return kGenerators;
-}
 
 void write(scenes::Scene scene, const std::filesystem::path& folder, const std::string& name) {
   scene.name = name;
@@ -39,11 +18,11 @@ void write(scenes::Scene scene, const std::filesystem::path& folder, const std::
 
 void run(const std::string& folder, std::vector<std::string> names) {
   if (names.empty())
-    for (const auto& [name, make] : generators())
+    for (const auto& [name, make] : scenes::generators())
       names.push_back(name);
   std::filesystem::create_directories(folder);
   for (const std::string& name : names)
-    write(generators().at(name)(), folder, name);
+    write(scenes::generators().at(name)(), folder, name);
 }
 
 int parseAndRun(int argc, char** argv) {
@@ -51,7 +30,7 @@ int parseAndRun(int argc, char** argv) {
   std::string folder, model;
   std::vector<std::string> names;
   std::vector<std::string> known;
-  for (const auto& [name, make] : generators())
+  for (const auto& [name, make] : scenes::generators())
     known.push_back(name);
   app.add_option("OUTDIR", folder, "folder of the .glb files")->required();
   app.add_option("--turntable", model,
