@@ -46,7 +46,7 @@ struct Typed {
       sampleBudget, cascadeFade, filter, medium, shadowSize, avsmSize, avsmNodes, cascades, frames, repeat, context,
       stats, exposure;
   std::vector<std::string> out;
-  bool reversedDepth = false, noReuse = false, noAvsm = false, detectChanges = false;
+  bool reversedDepth = false, noReuse = false, noAvsm = false, detectChanges = false, strict = false;
 };
 
 double parseFinite(const std::string& option, const std::string& value, const std::string& part) {
@@ -255,6 +255,7 @@ void addOptions(CLI::App& app, Typed& typed) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--stats", typed.stats, "timings and counts as JSON")->type_name("S.json");
+  app.add_flag("--strict", typed.strict, "fail where there is a note: nothing is made up, left out or changed");
   app.add_option("--exposure", typed.exposure, "of the PNG, in stops (default: by the first picture's brightness)")
       ->type_name("STOPS");
 }
@@ -273,6 +274,7 @@ Options fromTyped(const Typed& typed) {
     options.changes = typed.detectChanges ? tyndall::Changes::Detect : tyndall::Changes::Objects;
   options.context = parseContext("--context", typed.context);
   readOutputs(typed, options);
+  options.strict = typed.strict;
   if (!typed.exposure.empty()) {
     options.exposureStops = parseFinite("--exposure", typed.exposure, typed.exposure);
     if (std::abs(*options.exposureStops) > 100)

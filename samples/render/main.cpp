@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <new>
 #include <optional>
+#include <scene/Error.h>
 #include <scene/FileIo.h>
 
 namespace render {
@@ -46,6 +47,8 @@ std::vector<FrameStatistics> renderFrames(const Options& options, const FrameRan
   for (int frame = range.first; frame <= range.last; ++frame) {
     statistics.push_back({frame, renderer.render(frame)});
     printNotes(renderer.notes(), printed);
+    if (options.strict && printed > 0)
+      throw host::Error(fmt::format("{}: --strict allows no notes, there are {}", options.scene.string(), printed));
     if (!options.out.empty()) {
       const Picture picture = renderer.readPicture();
       if (!exposure) exposure = exposureOf(picture);
