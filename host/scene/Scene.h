@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
@@ -134,10 +135,11 @@ struct Scene {
   std::vector<Camera> cameras;
   std::vector<Light> lights;
   std::vector<SmokeEmitter> smoke;
-  std::vector<AnimationChannel> animation; ///< all animations of the file, played at once
-  std::optional<tyndall::Medium> medium;   ///< extras.tyndall.medium of the file's scene
-  glm::vec3 skyRadiance{0.0F};             ///< extras.tyndall.sky: radiance of the sky and of ambient light
-  std::vector<std::string> notes;          ///< what was ignored, clamped or made up, a line each
+  std::vector<AnimationChannel> animation;  ///< all animations of the file, played at once
+  std::optional<tyndall::Medium> medium;    ///< extras.tyndall.medium of the file's scene
+  glm::vec3 skyRadiance{0.0F};              ///< extras.tyndall.sky: radiance of the sky and of ambient light
+  std::vector<std::filesystem::path> files; ///< it was read from, and those it refers to, read or not
+  std::vector<std::string> notes;           ///< what was ignored, clamped or made up, a line each
 };
 
 /// The node transforms at a time in seconds, worldFromNode for each node.

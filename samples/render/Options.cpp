@@ -29,7 +29,8 @@ Files
   EXR: 32-bit float; R G B (composite), inscatter.{R,G,B}, transmittance.{R,G,B}, Z (distance along the view
   axis in world units; 1e30 where there is only sky). PNG: the tone-mapped composite.
   With --supersample the PNG is the mean after tone mapping; the EXR keeps every pixel that was rendered.
-  Files are written beside their name and renamed when complete.
+  Files are written in their folder and renamed when complete. A link is followed; a file that is write-protected, an
+  input, or named by another output is refused.
 Views
   composite (default), inscatter, transmittance, and difference (to exact; grey 0, red +10 %, blue -10 % of the mean);
   redrawn (red: not kept from the last frame);
@@ -190,9 +191,6 @@ void readOutputs(const Typed& typed, Options& options) {
     options.out.emplace_back(name);
   }
   if (!typed.stats.empty()) options.stats = typed.stats;
-  if (options.out.size() == 2 && options.out[0] == options.out[1]) failUsage("--out", typed.out[0], "is given twice");
-  if (options.stats && std::find(options.out.begin(), options.out.end(), *options.stats) != options.out.end())
-    failUsage("--stats", typed.stats, "is the name of an --out, too");
 }
 
 void addOptions(CLI::App& app, Typed& typed) {

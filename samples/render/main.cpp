@@ -2,6 +2,7 @@
 
 #include "CommandLine.h"
 #include "Options.h"
+#include "OutputNames.h"
 #include "Outputs.h"
 #include "Progress.h"
 #include "RenderFrame.h"
@@ -18,12 +19,6 @@
 namespace render {
 
 namespace {
-
-void requireWritableOutputs(const Options& options, const FrameRange& range) {
-  for (const std::filesystem::path& file : options.out)
-    requireWritable(nameOfFrame(file, range.first));
-  if (options.stats) requireWritable(*options.stats);
-}
 
 /// Prints the notes from `printed` on.
 void printNotes(const host::Notes& notes, std::size_t& printed) {
@@ -62,8 +57,9 @@ std::vector<FrameStatistics> renderFrames(const Options& options, const FrameRan
 
 void run(const Options& options) {
   const FrameRange range = options.frames.value_or(FrameRange{});
-  requireWritableOutputs(options, range);
+  const OutputNames names(options);
   FrameRenderer renderer(options);
+  names.requireOthersThan(renderer.scene().files);
   const std::vector<FrameStatistics> statistics = renderFrames(options, range, renderer);
   if (options.stats) writeStatistics(*options.stats, options, renderer.driver(), statistics);
   if (options.out.empty() && !options.stats) printSummary(options, renderer, statistics);
@@ -82,6 +78,7 @@ int fail(int exitCode, const std::string& message) {
 int main(int argc, char** argv) {
   constexpr int kFailed = 1;
   constexpr int kWrongUsage = 2;
+  host::removeUnfinishedOnSignals();
   try {
     render::run(render::parseOptions(argc, argv));
     return 0;
