@@ -8,13 +8,11 @@
 #include "RenderFrame.h"
 
 #include <cmath>
-#include <cstdio>
-#include <exception>
 #include <fmt/format.h>
-#include <new>
 #include <optional>
 #include <scene/Error.h>
 #include <scene/FileIo.h>
+#include <scene/Tool.h>
 
 namespace render {
 
@@ -23,14 +21,15 @@ namespace {
 /// Prints the notes from `printed` on.
 void printNotes(const host::Notes& notes, std::size_t& printed) {
   for (; printed < notes.size(); ++printed)
-    fmt::print(stderr, "note: {}\n", host::printable(notes[printed]));
+    host::say("note: " + notes[printed]);
 }
 
 void printSummary(const Options& options, const FrameRenderer& renderer, const std::vector<FrameStatistics>& frames) {
   for (const FrameStatistics& frame : frames)
-    fmt::print("{} frame {}: {}x{}, {} lights, technique {}: effect {:.1f} ms ({})\n",
-               host::printable(options.scene.filename().string()), frame.frame, options.width, options.height,
-               renderer.lightCount(), options.technique, frame.measurement.median(), renderer.driver());
+    host::print(fmt::format("{} frame {}: {}x{}, {} lights, technique {}: effect {:.1f} ms ({})\n",
+                            host::printable(options.scene.filename().string()), frame.frame, options.width,
+                            options.height, renderer.lightCount(), options.technique, frame.measurement.median(),
+                            renderer.driver()));
 }
 
 std::vector<FrameStatistics> renderFrames(const Options& options, const FrameRange& range, FrameRenderer& renderer) {
@@ -55,7 +54,7 @@ std::vector<FrameStatistics> renderFrames(const Options& options, const FrameRan
   return statistics;
 }
 
-void run(const Options& options) {
+int run(const Options& options) {
   const FrameRange range = options.frames.value_or(FrameRange{});
   const OutputNames names(options);
   FrameRenderer renderer(options);
@@ -63,12 +62,7 @@ void run(const Options& options) {
   const std::vector<FrameStatistics> statistics = renderFrames(options, range, renderer);
   if (options.stats) writeStatistics(*options.stats, options, renderer.driver(), statistics);
   if (options.out.empty() && !options.stats) printSummary(options, renderer, statistics);
-}
-
-/// One line, whatever the message holds.
-int fail(int exitCode, const std::string& message) {
-  fmt::print(stderr, "tyndall-render: {}\n", host::printable(message));
-  return exitCode;
+  return 0;
 }
 
 } // namespace
@@ -76,22 +70,5 @@ int fail(int exitCode, const std::string& message) {
 } // namespace render
 
 int main(int argc, char** argv) {
-  constexpr int kFailed = 1;
-  constexpr int kWrongUsage = 2;
-  host::removeUnfinishedOnSignals();
-  try {
-    render::run(render::parseOptions(argc, argv));
-    return 0;
-  } catch (const render::Answer& answer) {
-    fmt::print("{}", answer.text);
-    return 0;
-  } catch (const render::UsageError& error) {
-    render::fail(kWrongUsage, error.what());
-    fmt::print(stderr, "usage: tyndall-render SCENE.glb [options]; tyndall-render --help lists them\n");
-    return kWrongUsage;
-  } catch (const std::bad_alloc&) {
-    return render::fail(kFailed, "out of memory");
-  } catch (const std::exception& error) {
-    return render::fail(kFailed, error.what());
-  }
+  return render::runCommand("tyndall-render", [&] { return render::run(render::parseOptions(argc, argv)); });
 }

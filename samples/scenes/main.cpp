@@ -4,16 +4,15 @@
 #include "GlbWriter.h"
 #include "MeshBuilder.h"
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 #include <filesystem>
+#include <scene/Tool.h>
 
 namespace {
 
 void write(scenes::Scene scene, const std::filesystem::path& folder, const std::string& name) {
   scene.name = name;
   scenes::writeGlb(scene, (folder / (name + ".glb")).string());
-  std::printf("%s.glb: %zu triangles\n", name.c_str(), scenes::triangleCount(scene));
+  host::say(name + ".glb: " + std::to_string(scenes::triangleCount(scene)) + " triangles");
 }
 
 void run(const std::string& folder, std::vector<std::string> names) {
@@ -53,10 +52,5 @@ int parseAndRun(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return parseAndRun(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "tyndall-make-scenes: %s\n", error.what());
-    return 1;
-  }
+  return host::runTool("tyndall-make-scenes", [&] { return parseAndRun(argc, argv); });
 }
