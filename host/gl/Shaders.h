@@ -127,7 +127,7 @@ void main() {
 
   vec3 albedo = baseColour.rgb * texel.rgb;
   vec3 result = pass == AMBIENT ? ambient(albedo, normal) + emission : albedo / kPi * irradiance(normal, face);
-  radiance = vec4(min(result, kMaxRadiance), alpha);
+  radiance = vec4(min(result, maxRadiance), alpha);
 }
 )";
 

@@ -28,7 +28,7 @@ void SurfaceRenderer::render(const std::vector<glm::dmat4>& worldFromNode, const
                              const std::vector<tyndall::Light>& lights, RenderTargets& targets,
                              const glm::vec3& skyRadiance, const tyndall::Medium* medium, VolumeRenderer& volumes) {
   buffers_.requirePose(worldFromNode);
-  const Job job{worldFromNode, CameraView(camera), {lights, skyRadiance, extinctionOf(medium)}};
+  const Job job{worldFromNode, CameraView(camera), {lights, skyRadiance, extinctionOf(medium), targets.maxRadiance()}};
   resetRenderState();
   applyClipConvention(job.camera.convention);
   gl().BindFramebuffer(GL_FRAMEBUFFER, targets.framebuffer());
@@ -101,6 +101,7 @@ void SurfaceRenderer::drawTransparent(const Job& job) {
 Program& SurfaceRenderer::use(const Job& job, const tyndall::AvsmCurves& curves) {
   Program& program = surface_.variantFor(curves);
   program.use();
+  program.set("maxRadiance", job.light.maxRadiance);
   program.set("eye", job.camera.viewerFrom(job.camera.eye));
   return program;
 }

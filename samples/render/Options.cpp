@@ -79,6 +79,8 @@ Sun parseSun(const std::string& value) {
   if (n.size() == 6) {
     if (n[3] < 0 || n[4] < 0 || n[5] < 0) failUsage("--sun", value, "its colour must not be negative");
     sun.colour = glm::vec3(n[3], n[4], n[5]);
+    if (!std::isfinite(sun.colour->r + sun.colour->g + sun.colour->b))
+      failUsage("--sun", value, "its colour must be finite as 32-bit floats");
   }
   return sun;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fmt/format.h>
 #include <gl/Gl.h>
 #include <gl/ReadBack.h>
 #include <scene/Error.h>
@@ -167,6 +168,14 @@ void FrameRenderer::renderShadowMaps(const std::vector<glm::dmat4>& worldFromNod
   if (volumeShadows_) volumeShadows_->update(*sceneRenderer_, frame_.lights);
 }
 
+/// The surfaces' radiance is cut at what their colour format holds.
+void FrameRenderer::noteCutRadiance(host::Notes& notes) const {
+  const float most = surfaces_.maxRadiance();
+  const std::vector<float> colour = host::readColour(surfaces_.colour(), surfaces_.width(), surfaces_.height(), 3);
+  const auto cut = std::count_if(colour.begin(), colour.end(), [most](float value) { return value >= most; });
+  if (cut > 0) notes.push_back(fmt::format("radiance of surfaces is cut at {:g}, the most that is held", most));
+}
+
 // Smoke moves in every frame: all of the box around it may dim the light anew.
 void FrameRenderer::addMovedObjects(const std::vector<glm::dmat4>& worldFromNode, double seconds) {
   frame_.objects = host::movedObjects(scene_, meshBounds_, lastPose_, worldFromNode);
@@ -236,8 +245,9 @@ void FrameRenderer::draw(int frame) {
   frame_.lights = makeLights(worldFromNode, notes);
   const glm::vec3 sky = host::skyOf(scene_, worldFromNode, frame_.lights, notes);
   renderShadowMaps(worldFromNode, seconds, notes);
-  addOnce(notes_, notes);
   sceneRenderer_->renderScene(worldFromNode, frame_.camera, frame_.lights, surfaces_, sky, &frame_.medium);
+  if (!options_.out.empty()) noteCutRadiance(notes);
+  addOnce(notes_, notes);
   ++frame_.reuse.frame;
   frame_.objects.clear();
   if (options_.changes == tyndall::Changes::Objects && !lastPose_.empty()) addMovedObjects(worldFromNode, seconds);
