@@ -35,6 +35,7 @@ public:
     const Primitive* primitive = nullptr;
     int node = 0;
     SurfaceClass surface = SurfaceClass::Opaque;
+    bool casts = true; ///< a shadow or a tint: not if unlit
   };
 
   /// By material, so that neighbours share their textures. Without lines, which are strands (gl/StrandRenderer.h).

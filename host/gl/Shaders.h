@@ -79,6 +79,7 @@ uniform sampler2D baseTexture;
 uniform vec4 baseColour;
 uniform vec3 emission;
 uniform float alphaCutoff;
+uniform bool unlit;
 uniform vec4 eye; // xyz - w * position points to the viewer, for perspective and orthographic cameras
 
 /// Fades the light out where the face turns away from it though the shading normal does not: else the edge of the
@@ -126,7 +127,9 @@ void main() {
   if (dot(normal, face) < 0.0) normal = -normal;
 
   vec3 albedo = baseColour.rgb * texel.rgb;
-  vec3 result = pass == AMBIENT ? ambient(albedo, normal) + emission : albedo / kPi * irradiance(normal, face);
+  vec3 result = vec3(0.0);
+  if (pass == AMBIENT) result = emission + (unlit ? albedo : ambient(albedo, normal));
+  else if (!unlit) result = albedo / kPi * irradiance(normal, face);
   radiance = vec4(min(result, maxRadiance), alpha);
 }
 )";

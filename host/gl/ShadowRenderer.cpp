@@ -71,7 +71,8 @@ void ShadowRenderer::drawDepthOnly(const std::vector<glm::dmat4>& worldFromNode,
   buffers_.requirePose(worldFromNode);
   for (const SceneBuffers::Draw& draw : buffers_.draws()) {
     const glm::dmat4 clipFromNode = clipFromWorld * worldFromNode[draw.node];
-    if (draw.surface == SurfaceClass::Glass || SceneBuffers::isBesideView(*draw.primitive, clipFromNode)) {
+    if (!draw.casts || draw.surface == SurfaceClass::Glass ||
+        SceneBuffers::isBesideView(*draw.primitive, clipFromNode)) {
       continue;
     }
     if (draw.surface == SurfaceClass::Opaque) {
@@ -104,7 +105,8 @@ void ShadowRenderer::drawCutOut(Program& program, const SceneBuffers::Draw& draw
 void ShadowRenderer::drawGlass(const std::vector<glm::dmat4>& worldFromNode, const glm::dmat4& clipFromWorld) {
   for (const SceneBuffers::Draw& draw : buffers_.draws()) {
     const glm::dmat4 clipFromNode = clipFromWorld * worldFromNode[draw.node];
-    if (draw.surface != SurfaceClass::Glass || SceneBuffers::isBesideView(*draw.primitive, clipFromNode)) {
+    if (!draw.casts || draw.surface != SurfaceClass::Glass ||
+        SceneBuffers::isBesideView(*draw.primitive, clipFromNode)) {
       continue;
     }
     const Material& material = buffers_.material(draw.primitive->material);

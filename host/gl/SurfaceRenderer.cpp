@@ -134,6 +134,7 @@ void SurfaceRenderer::draw(const Job& job, const SceneBuffers::Draw& draw, Progr
   program.set("baseColour", material.baseColour);
   program.set("emission", material.emission);
   program.set("transmission", material.transmission);
+  program.set("unlit", static_cast<int>(material.unlit));
   program.set("alphaCutoff", material.alphaMode == AlphaMode::Mask ? material.alphaCutoff : 0);
   SceneBuffers::submit(*draw.primitive);
 }

@@ -61,6 +61,7 @@ struct Material {
   float alphaCutoff = 0.5F;
   float transmission = 0;                           ///< KHR_materials_transmission's factor
   glm::vec3 emission{0};                            ///< linear radiance
+  bool unlit = false;                               ///< KHR_materials_unlit: radiates baseColour, casts no shadow
   bool isGlass() const { return transmission > 0; } ///< casts no shadow, tints the light by baseColour * transmission
 };
 

@@ -63,7 +63,7 @@ std::vector<Triangle> trianglesOf(const host::Scene& scene, const std::vector<gl
       const bool clear =
           (material.alphaMode == host::AlphaMode::Mask && material.baseColour.a < material.alphaCutoff) ||
           (material.alphaMode == host::AlphaMode::Blend && material.baseColour.a < 0.5F);
-      if (primitive.topology != host::Topology::Triangles || (clear && !glass)) continue;
+      if (primitive.topology != host::Topology::Triangles || material.unlit || (clear && !glass)) continue;
       const Rgb tint = Rgb(material.baseColour) * static_cast<double>(material.transmission);
       const auto corner = [&](std::size_t i) {
         return glm::dvec3(worldFromNode[n] * glm::dvec4(primitive.vertices[primitive.indices[i]].position, 1));

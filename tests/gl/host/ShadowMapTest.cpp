@@ -119,7 +119,7 @@ TEST_CASE("shadow maps refuse sizes and views that are not", "[shadow]") {
   CHECK(!renderer.renderShadowMap({}, light, 4).depth);
 }
 
-TEST_CASE("masked and blended casters are cut out, glass casts no shadow", "[shadow]") {
+TEST_CASE("masked and blended casters are cut out, glass and what is unlit cast no shadow", "[shadow]") {
   tests::testContext();
   const tyndall::Light light = tests::sunAlongZ(2, 0, -10);
   const std::size_t left = kSize / 2 * kSize + kSize / 4;
@@ -145,6 +145,12 @@ TEST_CASE("masked and blended casters are cut out, glass casts no shadow", "[sha
     const std::vector<float> depth = shadowOf(scene, light);
     CHECK(depth[left] == 1.0F);
     CHECK(depth[right] == Approx(0.5));
+  }
+  SECTION("unlit") {
+    host::Scene scene = tests::emptyScene();
+    material.unlit = true;
+    addWall(scene, -5, 2, addMaterial(scene, material));
+    CHECK(shadowOf(scene, light)[kMiddle] == 1.0F);
   }
   SECTION("glass") {
     host::Scene scene = tests::emptyScene();

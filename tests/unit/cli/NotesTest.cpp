@@ -80,6 +80,37 @@ float greatest(const tests::ToolFolder& folder, const std::string& channel) {
 
 } // namespace
 
+TEST_CASE("a dome that keeps the sun out is a note that names it") {
+  const tests::ToolFolder folder;
+  const std::vector<std::string> view = {"--eye", "0,2,8", "--target", "0,1,0"};
+  SunnyScene open, closed, unlit, lampInside;
+  CHECK(open.render(folder, view).err.empty());
+  const float lit = greatest(folder, "inscatter.G");
+  CHECK(lit > 0);
+
+  closed.addBox("sky", {-50, -50, -50}, {50, 50, 50}, 0);
+  const tests::ToolResult result = closed.render(folder, view);
+  CHECK(result.exitCode == 0);
+  CHECK(
+      result.err.find("note: mesh \"sky\" of node 3 \"sky\" encloses the camera and all that it sees: light 0 is kept "
+                      "out") == 0);
+  CHECK(greatest(folder, "inscatter.G") == 0);
+
+  unlit.addBox("sky", {-50, -50, -50}, {50, 50, 50}, 1);
+  CHECK(unlit.render(folder, view).err.empty());
+  CHECK(greatest(folder, "inscatter.G") > 0.5F * lit);
+}
+
+TEST_CASE("what is unlit shows its base colour, whatever the light") {
+  const tests::ToolFolder folder;
+  SunnyScene scene;
+  scene.addBox("sky", {-50, -50, -50}, {50, 50, 50}, 1);
+  const std::vector<std::string> up = {"--eye", "0,2,8", "--target", "0,9,8.1", "--medium", "m.json"};
+  folder.write("m.json", "{}");
+  CHECK(scene.render(folder, up).exitCode == 0);
+  CHECK(greatest(folder, "G") == 1);
+}
+
 TEST_CASE("radiance of surfaces is what the light makes it, and a cut is a note") {
   const tests::ToolFolder folder;
   const SunnyScene scene;
