@@ -149,7 +149,7 @@ SceneBuffers::SceneBuffers(const Scene& scene) : materials_(scene.materials), no
       }
       const Material& look = material(primitive.material);
       draws_.push_back({&primitive, static_cast<int>(node), classOf(look), !look.unlit});
-      hasGlass_ = hasGlass_ || (draws_.back().casts && draws_.back().surface == SurfaceClass::Glass);
+      hasGlass_ = hasGlass_ || draws_.back().tintsLight();
     }
   }
   std::stable_sort(draws_.begin(), draws_.end(),

@@ -134,6 +134,8 @@ void SurfaceRenderer::draw(const Job& job, const SceneBuffers::Draw& draw, Progr
   program.set("baseColour", material.baseColour);
   program.set("emission", material.emission);
   program.set("transmission", material.transmission);
+  program.set("coveredByAlpha", static_cast<int>(material.alphaMode == AlphaMode::Blend));
+  program.set("opaqueAlpha", 2.0F); // none is left out
   program.set("unlit", static_cast<int>(material.unlit));
   program.set("alphaCutoff", material.alphaMode == AlphaMode::Mask ? material.alphaCutoff : 0);
   SceneBuffers::submit(*draw.primitive);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <scene/Error.h>
 #include <scene/Projection.h>
 #include <scene/WorldGeometry.h>
 
@@ -10,7 +11,49 @@ namespace host {
 
 namespace {
 
+/// Found by scaling scenes: beyond these the effect's pictures of them change.
+constexpr double kLargestLength = 1e15, kSmallestLength = 1e-16;
+
 glm::dvec3 eyeOf(const tyndall::Camera& camera) { return glm::dvec3(glm::inverse(fromMat4(camera.viewFromWorld))[3]); }
+
+/// Farthest distance from the eye to a point.
+double reachOf(const WorldGeometry& geometry, const glm::dvec3& eye) {
+  double reach = 0;
+  for (const glm::dvec3& point : geometry.points)
+    reach = std::max(reach, glm::distance(point, eye));
+  return reach;
+}
+
+void requireFloatRange(double reach) {
+  if (reach <= kLargestLength && (reach >= kSmallestLength || reach == 0)) return;
+  throw Error(fmt::format("scene: reaches {:.3g} units from the camera, must be {:g} to {:g} for 32-bit floats to hold "
+                          "the squares of lengths: scale it, and the medium with it",
+                          reach, kSmallestLength, kLargestLength));
+}
+
+/// Depth is 1 - n / t, a little less with a far plane, and rounded to halves of 2^-24: at distance t that is t^2 / n as
+/// much. Reversed depth is n / t, whose rounding shrinks with it.
+void noteDepthPrecision(const WorldGeometry& geometry, const tyndall::Camera& camera, double reach, Notes& notes) {
+  constexpr double kRounding = 1.0 / (1 << 25);
+  constexpr double kMost = 1e-3; ///< relative error of a distance that is not worth a word
+  const glm::dmat4 clipFromView = fromMat4(camera.clipFromView);
+  const bool isPerspective = clipFromView[2][3] != 0;
+  const bool isStandard = clipFromView[2][2] < 0;
+  if (!isPerspective || !isStandard) return;
+  const double lowest = camera.clipDepth == tyndall::ClipDepth::ZeroToOne ? 0 : -1;
+  const double nearPlane = clipFromView[3][2] / (clipFromView[2][2] + lowest);
+  if (!(kRounding * reach / nearPlane > kMost)) return;
+  const auto range =
+      depthRangeInPyramid(geometry, fromMat4(camera.viewFromWorld), 1 / clipFromView[0][0], 1 / clipFromView[1][1]);
+  const double farthest = range ? range->farthest : 0;
+  const double error = kRounding * farthest / nearPlane;
+  if (!(error > kMost)) return;
+  notes.push_back(
+      fmt::format("camera: with its near plane at {:.3g} the depth buffer holds a distance of {:.3g} no better than to "
+                  "{:.2g} %, and "
+                  "shafts that end there may be as wrong: move the near plane to {:.2g} or reverse the depth",
+                  nearPlane, farthest, 100 * error, nearPlane * error / kMost));
+}
 
 /// The triangles of a node that stop light.
 struct Caster {
@@ -57,6 +100,15 @@ std::string nameOf(const Scene& scene, int node) {
 }
 
 } // namespace
+
+Notes adviceOn(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode, const tyndall::Camera& camera) {
+  Notes notes;
+  const WorldGeometry visible = visibleGeometry(scene, worldFromNode);
+  const double reach = reachOf(visible, eyeOf(camera));
+  requireFloatRange(reach);
+  noteDepthPrecision(visible, camera, reach, notes);
+  return notes;
+}
 
 std::vector<Enclosure> enclosuresOf(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode,
                                     const tyndall::Camera& camera, const std::vector<tyndall::Light>& lights) {

@@ -5,6 +5,10 @@
 
 namespace host {
 
+/// A note on a near plane so close that the depth buffer, 32-bit floats, no longer tells distances apart. Throws Error
+/// if the scene is so large or so small that 32-bit floats do not hold the squares of its lengths.
+Notes adviceOn(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode, const tyndall::Camera& camera);
+
 /// A mesh around the camera and all that it sees, a dome of sky for instance.
 struct Enclosure {
   std::string mesh; ///< as a note names it

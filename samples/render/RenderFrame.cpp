@@ -273,6 +273,7 @@ void FrameRenderer::draw(int frame) {
   const glm::vec3 sky = host::skyOf(scene_, worldFromNode, frame_.lights, notes);
   renderShadowMaps(worldFromNode, seconds, notes);
   const bool isFirst = lastPose_.empty();
+  if (isFirst) addOnce(notes, host::adviceOn(scene_, worldFromNode, frame_.camera));
   sceneRenderer_->renderScene(worldFromNode, frame_.camera, frame_.lights, surfaces_, sky, &frame_.medium);
   if (isFirst) noteEnclosures(worldFromNode, notes);
   if (!options_.out.empty()) noteCutRadiance(notes);

@@ -111,6 +111,26 @@ TEST_CASE("what is unlit shows its base colour, whatever the light") {
   CHECK(greatest(folder, "G") == 1);
 }
 
+TEST_CASE("a near plane that leaves depth no precision is a note") {
+  const tests::ToolFolder folder;
+  SunnyScene fine, close;
+  fine.addCamera(0.01);
+  CHECK(fine.render(folder, {}).err.empty());
+  close.addCamera(1e-5);
+  CHECK(close.render(folder, {}).err.find("note: camera: with its near plane at 1e-05 the depth buffer holds") == 0);
+  CHECK(close.render(folder, {"--reversed-depth"}).err.empty());
+}
+
+TEST_CASE("a scene beyond what 32-bit floats hold is refused") {
+  const tests::ToolFolder folder;
+  SunnyScene scene;
+  scene.scaleBy(1e19);
+  const tests::ToolResult result = scene.render(folder, {"--eye", "0,2e19,8e19", "--target", "0,0,0"});
+  CHECK(result.exitCode == 1);
+  CHECK(result.err.find("tyndall-render: scene: reaches") != std::string::npos);
+  CHECK(folder.files() == std::vector<std::string>{"scene.glb", "triangle.gltf"});
+}
+
 TEST_CASE("radiance of surfaces is what the light makes it, and a cut is a note") {
   const tests::ToolFolder folder;
   const SunnyScene scene;

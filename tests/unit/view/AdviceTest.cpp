@@ -108,3 +108,35 @@ TEST_CASE("Meshes that are unlit do not stretch a shadow map", "[view][advice]")
   };
   CHECK(viewsOf(with) == viewsOf(without));
 }
+
+TEST_CASE("A near plane that leaves the depth buffer no precision is noted with numbers", "[view][advice]") {
+  const host::Scene scene = blockUnder({});
+  const auto notesFor = [&](double nearPlane, bool reversed) {
+    host::CameraOptions options;
+    options.reversedDepth = reversed;
+    options.clipDepth = reversed ? tyndall::ClipDepth::ZeroToOne : tyndall::ClipDepth::NegativeOneToOne;
+    const tyndall::Camera camera = host::makeLookAt({0, 2, 6}, {0, 1, 0}, 50, 1, nearPlane, 100, options);
+    return host::adviceOn(scene, restPose(scene), camera);
+  };
+  CHECK(notesFor(0.01, false).empty());
+  CHECK(notesFor(1e-5, true).empty());
+  const host::Notes notes = notesFor(1e-5, false);
+  REQUIRE(notes.size() == 1);
+  // The floor's far corners: 26 units away, known to 26 / 1e-5 / 2^25 = 7.7 %.
+  CHECK(notes[0].find("near plane at 1e-05 the depth buffer holds a distance of 26") != std::string::npos);
+  CHECK(notes[0].find("no better than to 7.") != std::string::npos);
+}
+
+TEST_CASE("A scene whose lengths have no squares in 32-bit floats is refused", "[view][advice]") {
+  host::Scene scene = blockUnder({});
+  const auto adviceAt = [&](double scale) {
+    const tests::Pose pose(scene.nodes.size(), glm::dmat4(glm::dmat3(scale)));
+    const tyndall::Camera camera =
+        host::makeLookAt(scene, pose, scale * glm::dvec3(0, 2, 6), scale * glm::dvec3(0, 1, 0), 50, 1);
+    return host::adviceOn(scene, pose, camera);
+  };
+  for (const double scale : {1e-15, 1e-6, 1.0, 1e6, 1e13})
+    CHECK(adviceAt(scale).empty());
+  for (const double scale : {1e-19, 1e15, 1e19})
+    CHECK_THROWS_WITH(adviceAt(scale), Catch::Contains("units from the camera, must be 1e-16 to 1e+15"));
+}
