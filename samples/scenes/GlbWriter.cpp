@@ -25,6 +25,8 @@ constexpr const char* kTransmission = "KHR_materials_transmission";
 
 /// The file in the making.
 struct Document {
+  explicit Document(const Scene& scene);
+
   json root;
   std::vector<std::uint8_t> bytes; ///< of its one buffer
 };
@@ -264,23 +266,21 @@ json extrasOf(const Scene& scene) {
   return {{"tyndall", {{"medium", medium}, {"sky", listOf(scene.sky)}}}};
 }
 
-Document documentOf(const Scene& scene) {
-  Document document;
-  document.root = {{"asset", {{"version", "2.0"}, {"generator", "tyndall-make-scenes"}}}, {"scene", 0}};
-  document.root["scenes"][0] = {{"name", scene.name}, {"extras", extrasOf(scene)}};
-  const std::vector<int> materials = appendMaterials(document, scene);
-  const int mesh = appendMesh(document, scene.name, scene.surfaces, materials);
-  appendNode(document, {{"name", scene.name}, {"mesh", mesh}});
-  appendBodies(document, scene, materials);
+Document::Document(const Scene& scene) {
+  root = {{"asset", {{"version", "2.0"}, {"generator", "tyndall-make-scenes"}}}, {"scene", 0}};
+  root["scenes"][0] = {{"name", scene.name}, {"extras", extrasOf(scene)}};
+  const std::vector<int> materials = appendMaterials(*this, scene);
+  const int mesh = appendMesh(*this, scene.name, scene.surfaces, materials);
+  appendNode(*this, {{"name", scene.name}, {"mesh", mesh}});
+  appendBodies(*this, scene, materials);
   for (const Strands& strands : scene.strands)
-    appendStrands(document, strands, materials);
+    appendStrands(*this, strands, materials);
   for (const Smoke& smoke : scene.smoke)
-    appendSmoke(document, smoke);
-  appendCamera(document, scene.camera);
+    appendSmoke(*this, smoke);
+  appendCamera(*this, scene.camera);
   for (const Light& light : scene.lights)
-    appendLight(document, light);
-  document.root["buffers"][0]["byteLength"] = document.bytes.size();
-  return document;
+    appendLight(*this, light);
+  root["buffers"][0]["byteLength"] = bytes.size();
 }
 
 /// glTF 2.0, section 4.4: a header, and two chunks whose lengths are multiples of 4. Little-endian, as the machine's
@@ -310,7 +310,7 @@ void writeContainer(std::ostream& stream, std::string text, std::vector<std::uin
 } // namespace
 
 void writeGlb(const Scene& scene, const std::string& path) {
-  const Document document = documentOf(scene);
+  const Document document(scene);
   host::writeAndRename(path, [&document](const std::filesystem::path& temporary) {
     std::ofstream stream(temporary, std::ios::binary);
     writeContainer(stream, document.root.dump(), document.bytes);
