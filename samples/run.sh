@@ -13,11 +13,11 @@ say "Building into build/"
 [ -f build/build.ninja ] || cmake -S . -B build -G Ninja -DTYNDALL_BUILD_TESTS=OFF
 cmake --build build --target tyndall-render tyndall_scenes
 
-# picture SCENE [OPTION...]: 960x540 pixels, each the mean of 2x2.
+# picture SCENE [OPTION...]: 960x540 pixels, each the mean of 2x2. Fails where a scene lacks light, camera or medium.
 picture() {
   scene=$1
   shift
-  set -- build/bin/tyndall-render "build/scenes/$scene.glb" --size 960x540 --supersample 2 "$@" \
+  set -- build/bin/tyndall-render "build/scenes/$scene.glb" --size 960x540 --supersample 2 --strict "$@" \
     --out "out/gallery/$scene.png" --stats "out/gallery/$scene.json"
   echo "$*"
   "$@"

@@ -1,4 +1,4 @@
-# Sourced by samples/run.sh and tests/run.sh: installs what the build needs on Debian 12, if anything is missing.
+# Sourced by samples/run.sh and tests/run.sh: installs what the build needs on Debian 12 and 13, if anything is missing.
 # Takes the packages as arguments of install_packages.
 
 say() { printf '\n== %s\n' "$*"; }

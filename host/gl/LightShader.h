@@ -13,7 +13,6 @@ inline constexpr const char* kLights = R"(
 #define SPOT 3
 const int kMaxViews = 6;
 const float kPi = 3.14159265358979;
-const float kMaxRadiance = 6.0e4; // half floats end at 65504
 
 uniform int pass;
 uniform vec3 lightPosition;  // relative
@@ -23,6 +22,7 @@ uniform float lightRange;
 uniform vec2 spotScaleOffset;
 uniform vec3 extinction;
 uniform vec3 skyRadiance;
+uniform float maxRadiance; // that the picture holds
 
 uniform int viewCount; // 0: no shadow map
 uniform mat4 shadowClipFromRelative[kMaxViews];

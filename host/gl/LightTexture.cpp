@@ -38,6 +38,7 @@ void LightTexture::render(const glm::ivec2& size, const Illumination& illuminati
   gl().BindVertexArray(empty_.name());
   const auto add = [&](Program& program) {
     setUniforms(program);
+    program.set("maxRadiance", illumination.maxRadiance);
     gl().DrawArrays(GL_TRIANGLES, 0, 3);
   };
   Program& ambient = program_.variantFor({});

@@ -12,6 +12,7 @@ struct Illumination {
   const std::vector<tyndall::Light>& lights;
   glm::vec3 skyRadiance{0};
   glm::vec3 extinction{0}; ///< of the medium
+  float maxRadiance = 0;   ///< that the picture holds: what is brighter is cut
 };
 
 class LightTexture {

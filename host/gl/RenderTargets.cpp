@@ -6,6 +6,11 @@
 
 namespace host {
 
+float RenderTargets::maxRadiance() const {
+  const bool isFloat = options_.colourFormat == GL_RGBA32F || options_.colourFormat == GL_RGB32F;
+  return isFloat ? 1e30F : 6e4F; // half floats end at 65504
+}
+
 RenderTargets::RenderTargets(const RenderTargetOptions& options) : options_(options) {
   const int width = options.width;
   const int height = options.height;

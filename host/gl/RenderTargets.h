@@ -22,6 +22,7 @@ public:
   int height() const { return options_.height; }
   bool multisampled() const { return options_.samples > 1; }
   GLenum depthFormat() const { return options_.depthFormat; }
+  float maxRadiance() const; ///< that the colour holds, with room for several lights to add up
   GLuint framebuffer() const { return framebuffer_.name(); } ///< what is drawn to
   GLuint colour() const { return colour_.name(); }           ///< GL_TEXTURE_2D
   GLuint depth() const { return depth_.name(); }             ///< GL_TEXTURE_2D, or _2D_MULTISAMPLE if multisampled()

@@ -147,9 +147,9 @@ SceneBuffers::SceneBuffers(const Scene& scene) : materials_(scene.materials), no
       if (primitive.mode == GL_LINES) {
         continue; // strands
       }
-      const SurfaceClass surface = classOf(material(primitive.material));
-      hasGlass_ = hasGlass_ || surface == SurfaceClass::Glass;
-      draws_.push_back({&primitive, static_cast<int>(node), surface});
+      const Material& look = material(primitive.material);
+      draws_.push_back({&primitive, static_cast<int>(node), classOf(look), !look.unlit});
+      hasGlass_ = hasGlass_ || draws_.back().tintsLight();
     }
   }
   std::stable_sort(draws_.begin(), draws_.end(),

@@ -10,7 +10,7 @@ namespace host {
 enum class SurfaceClass {
   Opaque,
   Masked,  ///< cut out by alpha
-  Blended, ///< drawn over what is behind it; casts a shadow where alpha is at least one half
+  Blended, ///< drawn over what is behind it; lets 1 - alpha of the light through
   Glass,   ///< tints what is behind it and casts no shadow
 };
 SurfaceClass classOf(const Material& material);
@@ -35,6 +35,9 @@ public:
     const Primitive* primitive = nullptr;
     int node = 0;
     SurfaceClass surface = SurfaceClass::Opaque;
+    bool casts = true; ///< a shadow or a tint: not if unlit
+
+    bool tintsLight() const { return casts && (surface == SurfaceClass::Glass || surface == SurfaceClass::Blended); }
   };
 
   /// By material, so that neighbours share their textures. Without lines, which are strands (gl/StrandRenderer.h).
@@ -49,7 +52,7 @@ public:
 
   /// Throws host::Error unless there is a matrix for each node.
   void requirePose(const std::vector<glm::dmat4>& worldFromNode) const;
-  bool hasGlass() const { return hasGlass_; }
+  bool hasGlass() const { return hasGlass_; } ///< or anything else that tints light
 
 private:
   std::vector<std::vector<Primitive>> meshes_;

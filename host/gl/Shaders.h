@@ -31,18 +31,23 @@ void main() {}
 #endif
 )";
 
-/// The transmittance of a pane, blended by multiplication.
+/// The transmittance of a pane or a blended surface, blended by multiplication. Alpha is the share that the surface
+/// covers: the rest lets all of the light through. What is opaque is not drawn: it casts a shadow.
 inline constexpr const char* kGlassFragment = R"(#version 330 core
 in vec2 surfaceUv;
 uniform sampler2D baseTexture;
 uniform vec4 baseColour;
 uniform float alphaCutoff;
 uniform float transmission;
+uniform bool coveredByAlpha;
+uniform float opaqueAlpha;
 layout(location = 0) out vec4 transmittance;
 void main() {
-  if (baseColour.a * textureLod(baseTexture, surfaceUv, 0.0).a < alphaCutoff) discard;
-  vec3 colour = baseColour.rgb * texture(baseTexture, surfaceUv).rgb * transmission;
-  transmittance = vec4(clamp(colour, 0.0, 1.0), 1.0);
+  float alpha = baseColour.a * textureLod(baseTexture, surfaceUv, 0.0).a;
+  if (alpha < alphaCutoff || alpha >= opaqueAlpha) discard;
+  vec4 texel = texture(baseTexture, surfaceUv);
+  vec3 colour = clamp(baseColour.rgb * texel.rgb * transmission, 0.0, 1.0);
+  transmittance = vec4(coveredByAlpha ? mix(vec3(1.0), colour, baseColour.a * texel.a) : colour, 1.0);
 }
 )";
 
@@ -79,6 +84,7 @@ uniform sampler2D baseTexture;
 uniform vec4 baseColour;
 uniform vec3 emission;
 uniform float alphaCutoff;
+uniform bool unlit;
 uniform vec4 eye; // xyz - w * position points to the viewer, for perspective and orthographic cameras
 
 /// Fades the light out where the face turns away from it though the shading normal does not: else the edge of the
@@ -126,8 +132,10 @@ void main() {
   if (dot(normal, face) < 0.0) normal = -normal;
 
   vec3 albedo = baseColour.rgb * texel.rgb;
-  vec3 result = pass == AMBIENT ? ambient(albedo, normal) + emission : albedo / kPi * irradiance(normal, face);
-  radiance = vec4(min(result, kMaxRadiance), alpha);
+  vec3 result = vec3(0.0);
+  if (pass == AMBIENT) result = emission + (unlit ? albedo : ambient(albedo, normal));
+  else if (!unlit) result = albedo / kPi * irradiance(normal, face);
+  radiance = vec4(min(result, maxRadiance), alpha);
 }
 )";
 

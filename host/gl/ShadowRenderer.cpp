@@ -11,7 +11,8 @@ namespace host {
 
 namespace {
 
-constexpr float kBlendedCasterAlpha = 0.5F; ///< a blended surface casts a shadow from this alpha on
+/// A blended surface casts a shadow from this alpha on, half a step below 1 in 8 bits, and tints light below it.
+constexpr float kOpaqueAlpha = 1 - 0.5F / 255;
 
 void attach(GLenum attachment, const GlTexture& texture, ShadowTarget target, int layer) {
   if (target == ShadowTarget::Array) {
@@ -71,7 +72,8 @@ void ShadowRenderer::drawDepthOnly(const std::vector<glm::dmat4>& worldFromNode,
   buffers_.requirePose(worldFromNode);
   for (const SceneBuffers::Draw& draw : buffers_.draws()) {
     const glm::dmat4 clipFromNode = clipFromWorld * worldFromNode[draw.node];
-    if (draw.surface == SurfaceClass::Glass || SceneBuffers::isBesideView(*draw.primitive, clipFromNode)) {
+    if (!draw.casts || draw.surface == SurfaceClass::Glass ||
+        SceneBuffers::isBesideView(*draw.primitive, clipFromNode)) {
       continue;
     }
     if (draw.surface == SurfaceClass::Opaque) {
@@ -80,7 +82,7 @@ void ShadowRenderer::drawDepthOnly(const std::vector<glm::dmat4>& worldFromNode,
       SceneBuffers::submit(*draw.primitive);
     } else {
       const bool masked = draw.surface == SurfaceClass::Masked;
-      const float cutoff = masked ? buffers_.material(draw.primitive->material).alphaCutoff : kBlendedCasterAlpha;
+      const float cutoff = masked ? buffers_.material(draw.primitive->material).alphaCutoff : kOpaqueAlpha;
       drawCutOut(depthAlphaTested_, draw, clipFromNode, cutoff);
     }
   }
@@ -97,6 +99,8 @@ void ShadowRenderer::drawCutOut(Program& program, const SceneBuffers::Draw& draw
   program.set("baseColour", material.baseColour);
   program.set("alphaCutoff", alphaCutoff);
   program.set("transmission", material.transmission);
+  program.set("coveredByAlpha", static_cast<int>(material.alphaMode == AlphaMode::Blend));
+  program.set("opaqueAlpha", draw.surface == SurfaceClass::Blended ? kOpaqueAlpha : 2);
   program.set("clipFromNode", glm::mat4(clipFromNode));
   SceneBuffers::submit(*draw.primitive);
 }
@@ -104,7 +108,7 @@ void ShadowRenderer::drawCutOut(Program& program, const SceneBuffers::Draw& draw
 void ShadowRenderer::drawGlass(const std::vector<glm::dmat4>& worldFromNode, const glm::dmat4& clipFromWorld) {
   for (const SceneBuffers::Draw& draw : buffers_.draws()) {
     const glm::dmat4 clipFromNode = clipFromWorld * worldFromNode[draw.node];
-    if (draw.surface != SurfaceClass::Glass || SceneBuffers::isBesideView(*draw.primitive, clipFromNode)) {
+    if (!draw.tintsLight() || SceneBuffers::isBesideView(*draw.primitive, clipFromNode)) {
       continue;
     }
     const Material& material = buffers_.material(draw.primitive->material);

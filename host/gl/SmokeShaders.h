@@ -123,7 +123,7 @@ void main() {
   float lightDistance;
   vec3 strength = unblockedIrradiance(position, toLight, lightDistance);
   if (strength != vec3(0.0)) strength *= lightThrough(position, toLight, 0.0, toLight, 0.0, lightDistance);
-  scattered = vec4(min(strength / (4.0 * kPi), kMaxRadiance), 0.0);
+  scattered = vec4(min(strength / (4.0 * kPi), maxRadiance), 0.0);
 }
 )";
 

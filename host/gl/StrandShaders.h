@@ -102,7 +102,7 @@ void main() {
   // A texel and a half before its own place in the curves, so that a strand does not dim itself.
   if (strength != vec3(0.0)) strength *= lightThrough(position, toLight, 1.5, toLight, 1.5, lightDistance);
   vec3 toEye = normalize(eye.xyz - eye.w * position);
-  radiance = vec4(min(strength * towardsEye(albedo, tangent, toLight, toEye), kMaxRadiance), 0.0);
+  radiance = vec4(min(strength * towardsEye(albedo, tangent, toLight, toEye), maxRadiance), 0.0);
 }
 )";
 

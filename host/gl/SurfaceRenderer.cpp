@@ -28,7 +28,7 @@ void SurfaceRenderer::render(const std::vector<glm::dmat4>& worldFromNode, const
                              const std::vector<tyndall::Light>& lights, RenderTargets& targets,
                              const glm::vec3& skyRadiance, const tyndall::Medium* medium, VolumeRenderer& volumes) {
   buffers_.requirePose(worldFromNode);
-  const Job job{worldFromNode, CameraView(camera), {lights, skyRadiance, extinctionOf(medium)}};
+  const Job job{worldFromNode, CameraView(camera), {lights, skyRadiance, extinctionOf(medium), targets.maxRadiance()}};
   resetRenderState();
   applyClipConvention(job.camera.convention);
   gl().BindFramebuffer(GL_FRAMEBUFFER, targets.framebuffer());
@@ -101,6 +101,7 @@ void SurfaceRenderer::drawTransparent(const Job& job) {
 Program& SurfaceRenderer::use(const Job& job, const tyndall::AvsmCurves& curves) {
   Program& program = surface_.variantFor(curves);
   program.use();
+  program.set("maxRadiance", job.light.maxRadiance);
   program.set("eye", job.camera.viewerFrom(job.camera.eye));
   return program;
 }
@@ -133,6 +134,9 @@ void SurfaceRenderer::draw(const Job& job, const SceneBuffers::Draw& draw, Progr
   program.set("baseColour", material.baseColour);
   program.set("emission", material.emission);
   program.set("transmission", material.transmission);
+  program.set("coveredByAlpha", static_cast<int>(material.alphaMode == AlphaMode::Blend));
+  program.set("opaqueAlpha", 2.0F); // none is left out
+  program.set("unlit", static_cast<int>(material.unlit));
   program.set("alphaCutoff", material.alphaMode == AlphaMode::Mask ? material.alphaCutoff : 0);
   SceneBuffers::submit(*draw.primitive);
 }

@@ -1,21 +1,87 @@
 #include "FileIo.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <csignal>
+#include <cstring>
+#include <fcntl.h>
 #include <fstream>
 #include <scene/Error.h>
+#include <sys/stat.h>
+#include <system_error>
 #include <unistd.h>
 
 namespace host {
 
 namespace {
 
-/// Removes a file when it goes out of scope, unless it has been renamed.
+std::filesystem::path folderOf(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Signals
+
+/// The file to remove if a signal ends the process; empty for none. Only one is written at a time.
+char unfinished[PATH_MAX] = "";
+
+void setUnfinished(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  if (name.size() < sizeof unfinished) std::memcpy(unfinished + 1, name.c_str() + 1, name.size());
+  std::atomic_signal_fence(std::memory_order_seq_cst);
+  unfinished[0] = name.size() < sizeof unfinished ? name[0] : '\0';
+}
+
+void clearUnfinished() { unfinished[0] = '\0'; }
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Writing
+
+std::string reasonOf(int error) { return std::generic_category().message(error); }
+
+/// Throws Error with the reason alone if the file, which may not exist yet, is not one to be written.
+void checkTarget(const std::filesystem::path& target) {
+  const std::filesystem::path folder = folderOf(target);
+  struct stat status {};
+  if (target.filename().empty() || std::filesystem::is_directory(target)) throw Error("it is a folder");
+  if (!std::filesystem::is_directory(folder)) throw Error("its folder does not exist");
+  if (stat(target.c_str(), &status) != 0) {
+    if (errno != ENOENT) throw Error(reasonOf(errno));
+    return;
+  }
+  if (!S_ISREG(status.st_mode)) throw Error("it is not a regular file");
+  // Nothing is forbidden to root, but a file that nobody may write is meant to stay.
+  constexpr mode_t kAnyoneWrites = S_IWUSR | S_IWGRP | S_IWOTH;
+  if ((status.st_mode & kAnyoneWrites) == 0 || access(target.c_str(), W_OK) != 0) throw Error("it is write-protected");
+}
+
+/// A new file in the folder of another one, with that one's permissions if it exists. Removed when it goes out of scope
+/// or a signal ends the process, unless it has been renamed.
 class TemporaryFile {
 public:
-  explicit TemporaryFile(std::filesystem::path path) : path_(std::move(path)) {}
+  explicit TemporaryFile(const std::filesystem::path& target) {
+    static int count = 0;
+    const std::string name = ".tyndall-" + std::to_string(getpid()) + "-" + std::to_string(count++) + ".part";
+    path_ = target.parent_path() / name;
+    setUnfinished(path_);
+    const int descriptor = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); // less the umask
+    if (descriptor < 0) {
+      clearUnfinished();
+      throw Error(reasonOf(errno));
+    }
+    struct stat status {};
+    if (stat(target.c_str(), &status) == 0) {
+      // Only root can give a file away: where that fails, it is the writer's.
+      if (fchown(descriptor, status.st_uid, status.st_gid) != 0) errno = 0;
+      fchmod(descriptor, status.st_mode & 07777);
+    }
+    close(descriptor);
+  }
   ~TemporaryFile() {
-    std::error_code ignored;
-    if (!path_.empty()) std::filesystem::remove(path_, ignored);
+    if (!path_.empty()) unlink(path_.c_str());
+    clearUnfinished();
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -30,6 +96,17 @@ public:
 private:
   std::filesystem::path path_;
 };
+
+/// Calls `action`; what it throws names the file.
+void naming(const std::filesystem::path& file, const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw Error(printable(file.string()) + ": cannot be written: " + error.code().message());
+  } catch (const std::exception& error) {
+    throw Error(printable(file.string()) + ": cannot be written: " + printable(error.what()));
+  }
+}
 
 } // namespace
 
@@ -53,21 +130,67 @@ std::vector<std::uint8_t> readFile(const std::filesystem::path& file, std::uint6
   return bytes;
 }
 
-void writeAndRename(const std::filesystem::path& file, const std::function<void(const std::filesystem::path&)>& write) {
-  const std::string hidden = "." + file.filename().string() + "." + std::to_string(getpid()) + ".part";
-  TemporaryFile temporary(file.parent_path() / hidden);
-  try {
-    if (file.filename().empty() || std::filesystem::is_directory(file)) throw Error("it is a folder");
-    if (!file.parent_path().empty() && !std::filesystem::is_directory(file.parent_path())) {
-      throw Error("its folder does not exist");
-    }
-    write(temporary.path());
-    temporary.renameTo(file);
-  } catch (const std::filesystem::filesystem_error& error) {
-    throw Error(printable(file.string()) + ": cannot be written: " + error.code().message());
-  } catch (const std::exception& error) {
-    throw Error(printable(file.string()) + ": cannot be written: " + printable(error.what()));
+std::filesystem::path targetOf(const std::filesystem::path& file) {
+  constexpr int kMostLinks = 40; // as Linux
+  std::filesystem::path target = file;
+  for (int i = 0; std::filesystem::is_symlink(std::filesystem::symlink_status(target)); ++i) {
+    if (i == kMostLinks) throw Error("it is a loop of symbolic links");
+    target = target.parent_path() / std::filesystem::read_symlink(target); // an absolute one replaces it all
   }
+  return target;
+}
+
+std::string identityOf(const std::filesystem::path& file) {
+  struct stat status {};
+  if (stat(file.c_str(), &status) == 0) return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
+  try {
+    const std::filesystem::path target = targetOf(file);
+    return (std::filesystem::canonical(folderOf(target)) / target.filename()).string();
+  } catch (const std::exception&) {
+    return std::filesystem::absolute(file).lexically_normal().string();
+  }
+}
+
+void requireWritable(const std::filesystem::path& file) {
+  naming(file, [&] {
+    const std::filesystem::path target = targetOf(file);
+    checkTarget(target);
+    const TemporaryFile probe(target);
+  });
+}
+
+void writeAndRename(const std::filesystem::path& file, const std::function<void(const std::filesystem::path&)>& write) {
+  naming(file, [&] {
+    const std::filesystem::path target = targetOf(file);
+    checkTarget(target);
+    TemporaryFile temporary(target);
+    write(temporary.path());
+    temporary.renameTo(target);
+  });
+}
+
+void writeText(const std::filesystem::path& file, std::string_view text) {
+  writeAndRename(file, [text](const std::filesystem::path& temporary) {
+    std::ofstream stream(temporary, std::ios::binary);
+    stream << text;
+    errno = EIO;
+    if (!stream.flush()) throw Error(reasonOf(errno));
+  });
+}
+
+void endWithoutUnfinished(int signal) {
+  if (unfinished[0] != '\0') unlink(unfinished);
+  std::signal(signal, SIG_DFL);
+  sigset_t only;
+  sigemptyset(&only);
+  sigaddset(&only, signal);
+  pthread_sigmask(SIG_UNBLOCK, &only, nullptr);
+  raise(signal);
+}
+
+void removeUnfinishedOnSignals() {
+  for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXCPU})
+    if (std::signal(signal, endWithoutUnfinished) == SIG_IGN) std::signal(signal, SIG_IGN); // nohup, say
 }
 
 std::string printable(std::string_view text) {

@@ -77,6 +77,7 @@ Scene convert(gltf::Document& document) {
   gltf::convertAnimations(document, sceneNodes, scene);
   gltf::convertSmoke(document, sceneNodes, scene);
   readTyndallExtras(document, scene);
+  scene.files = gltf::filesOf(document);
   scene.notes = document.notes();
   return scene;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
@@ -60,6 +61,7 @@ struct Material {
   float alphaCutoff = 0.5F;
   float transmission = 0;                           ///< KHR_materials_transmission's factor
   glm::vec3 emission{0};                            ///< linear radiance
+  bool unlit = false;                               ///< KHR_materials_unlit: radiates baseColour, casts no shadow
   bool isGlass() const { return transmission > 0; } ///< casts no shadow, tints the light by baseColour * transmission
 };
 
@@ -134,10 +136,11 @@ struct Scene {
   std::vector<Camera> cameras;
   std::vector<Light> lights;
   std::vector<SmokeEmitter> smoke;
-  std::vector<AnimationChannel> animation; ///< all animations of the file, played at once
-  std::optional<tyndall::Medium> medium;   ///< extras.tyndall.medium of the file's scene
-  glm::vec3 skyRadiance{0.0F};             ///< extras.tyndall.sky: radiance of the sky and of ambient light
-  std::vector<std::string> notes;          ///< what was ignored, clamped or made up, a line each
+  std::vector<AnimationChannel> animation;  ///< all animations of the file, played at once
+  std::optional<tyndall::Medium> medium;    ///< extras.tyndall.medium of the file's scene
+  glm::vec3 skyRadiance{0.0F};              ///< extras.tyndall.sky: radiance of the sky and of ambient light
+  std::vector<std::filesystem::path> files; ///< it was read from, and those it refers to, read or not
+  std::vector<std::string> notes;           ///< what was ignored, clamped or made up, a line each
 };
 
 /// The node transforms at a time in seconds, worldFromNode for each node.

@@ -50,6 +50,33 @@ std::optional<Bounds> strandBounds(const Mesh& mesh) {
   return bounds;
 }
 
+/// The triangles of a node whose material `isWanted`.
+template <class IsWanted>
+void appendNode(WorldGeometry& geometry, const Scene& scene, const std::vector<glm::dmat4>& worldFromNode,
+                std::size_t node, const IsWanted& isWanted) {
+  if (scene.nodes[node].mesh < 0) return;
+  for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(scene.nodes[node].mesh)].primitives)
+    if (primitive.topology == Topology::Triangles &&
+        isWanted(scene.materials[static_cast<std::size_t>(primitive.material)]))
+      append(geometry, primitive, worldFromNode[node]);
+}
+
+template <class IsWanted>
+WorldGeometry trianglesOf(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode, const IsWanted& isWanted) {
+  WorldGeometry geometry;
+  for (std::size_t node = 0; node < scene.nodes.size(); ++node)
+    appendNode(geometry, scene, worldFromNode, node, isWanted);
+  return geometry;
+}
+
+void appendStrandBoxes(WorldGeometry& geometry, const Scene& scene, const std::vector<glm::dmat4>& worldFromNode) {
+  for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
+    if (scene.nodes[node].mesh < 0) continue;
+    const auto bounds = strandBounds(scene.meshes[static_cast<std::size_t>(scene.nodes[node].mesh)]);
+    if (bounds) appendBox(geometry, *bounds, worldFromNode[node]);
+  }
+}
+
 /// A triangle cut by four planes has at most seven corners.
 struct Corners {
   std::array<glm::dvec3, 8> at;
@@ -74,27 +101,26 @@ Corners cut(const Corners& polygon, const glm::dvec3& normal) {
 } // namespace
 
 WorldGeometry worldGeometry(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode) {
+  return trianglesOf(scene, worldFromNode, [](const Material&) { return true; });
+}
+
+WorldGeometry opaqueGeometry(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode, int node) {
   WorldGeometry geometry;
-  for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
-    if (scene.nodes[node].mesh < 0) continue;
-    for (const Primitive& primitive : scene.meshes[scene.nodes[node].mesh].primitives)
-      if (primitive.topology == Topology::Triangles) append(geometry, primitive, worldFromNode[node]);
-  }
+  appendNode(geometry, scene, worldFromNode, static_cast<std::size_t>(node), [](const Material& material) {
+    return !material.unlit && !material.isGlass() && material.alphaMode == AlphaMode::Opaque;
+  });
   return geometry;
 }
 
 WorldGeometry visibleGeometry(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode) {
   WorldGeometry geometry = worldGeometry(scene, worldFromNode);
-  for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
-    if (scene.nodes[node].mesh < 0) continue;
-    const auto bounds = strandBounds(scene.meshes[static_cast<std::size_t>(scene.nodes[node].mesh)]);
-    if (bounds) appendBox(geometry, *bounds, worldFromNode[node]);
-  }
+  appendStrandBoxes(geometry, scene, worldFromNode);
   return geometry;
 }
 
 WorldGeometry blockingGeometry(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode, double seconds) {
-  WorldGeometry geometry = visibleGeometry(scene, worldFromNode);
+  WorldGeometry geometry = trianglesOf(scene, worldFromNode, [](const Material& material) { return !material.unlit; });
+  appendStrandBoxes(geometry, scene, worldFromNode);
   for (const SmokeEmitter& emitter : scene.smoke)
     appendBox(geometry, smokeBounds(scene, emitter, seconds), glm::dmat4(1));
   return geometry;

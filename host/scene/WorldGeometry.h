@@ -23,10 +23,14 @@ struct WorldGeometry {
 
 WorldGeometry worldGeometry(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode);
 
+/// Of one node, what stops light wherever it stands: opaque triangles that cast shadows.
+WorldGeometry opaqueGeometry(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode, int node);
+
 /// The same, and a box around the strands of each node.
 WorldGeometry visibleGeometry(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode);
 
-/// The same, and a box around each emitter's smoke at a time: all that may stand in the way of light.
+/// All that may stand in the way of light: triangles that are not unlit, and boxes around the strands of each node and
+/// around each emitter's smoke at a time.
 WorldGeometry blockingGeometry(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode, double seconds);
 
 /// Nearest and farthest distance along -z.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <scene/Error.h>
+#include <scene/Tool.h>
 #include <system_error>
 #include <tyndall/tyndall.h>
 
@@ -45,6 +46,22 @@ std::vector<std::string> split(const std::string& text, char separator) {
     else
       parts.back() += c;
   return parts;
+}
+
+int runCommand(const char* name, const std::function<int()>& body) {
+  constexpr int kWrongUsage = 2;
+  return host::runTool(name, [&] {
+    try {
+      return body();
+    } catch (const Answer& answer) {
+      host::print(answer.text);
+      return 0;
+    } catch (const UsageError& error) {
+      host::say(fmt::format("{}: {}", name, error.what()));
+      host::say(fmt::format("usage: {0} [options]; {0} --help lists them", name));
+      return kWrongUsage;
+    }
+  });
 }
 
 void parseArguments(CLI::App& app, int argc, const char* const* argv) {

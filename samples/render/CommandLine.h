@@ -3,6 +3,7 @@
 #pragma once
 
 #include <charconv>
+#include <functional>
 #include <gl/Context.h>
 #include <optional>
 #include <stdexcept>
@@ -51,6 +52,10 @@ host::ContextKind parseContext(const std::string& option, const std::string& val
 
 /// The parts between separators: at least one, which may be empty.
 std::vector<std::string> split(const std::string& text, char separator);
+
+/// main() of a tool with options: host::runTool(), and 2 with a second line, how to get help, for a UsageError. An
+/// Answer is printed.
+int runCommand(const char* name, const std::function<int()>& body);
 
 /// Fills in what `app` describes. Throws UsageError, also for an option given as "", which must not pass for one left
 /// out, or Answer.

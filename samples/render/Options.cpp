@@ -29,7 +29,8 @@ Files
   EXR: 32-bit float; R G B (composite), inscatter.{R,G,B}, transmittance.{R,G,B}, Z (distance along the view
   axis in world units; 1e30 where there is only sky). PNG: the tone-mapped composite.
   With --supersample the PNG is the mean after tone mapping; the EXR keeps every pixel that was rendered.
-  Files are written beside their name and renamed when complete.
+  Files are written in their folder and renamed when complete. A link is followed; a file that is write-protected, an
+  input, or named by another output is refused.
 Views
   composite (default), inscatter, transmittance, and difference (to exact; grey 0, red +10 %, blue -10 % of the mean);
   redrawn (red: not kept from the last frame);
@@ -46,7 +47,7 @@ struct Typed {
       sampleBudget, cascadeFade, filter, medium, shadowSize, avsmSize, avsmNodes, cascades, frames, repeat, context,
       stats, exposure;
   std::vector<std::string> out;
-  bool reversedDepth = false, noReuse = false, noAvsm = false, detectChanges = false;
+  bool reversedDepth = false, noReuse = false, noAvsm = false, detectChanges = false, strict = false;
 };
 
 double parseFinite(const std::string& option, const std::string& value, const std::string& part) {
@@ -78,6 +79,8 @@ Sun parseSun(const std::string& value) {
   if (n.size() == 6) {
     if (n[3] < 0 || n[4] < 0 || n[5] < 0) failUsage("--sun", value, "its colour must not be negative");
     sun.colour = glm::vec3(n[3], n[4], n[5]);
+    if (!std::isfinite(sun.colour->r + sun.colour->g + sun.colour->b))
+      failUsage("--sun", value, "its colour must be finite as 32-bit floats");
   }
   return sun;
 }
@@ -190,9 +193,6 @@ void readOutputs(const Typed& typed, Options& options) {
     options.out.emplace_back(name);
   }
   if (!typed.stats.empty()) options.stats = typed.stats;
-  if (options.out.size() == 2 && options.out[0] == options.out[1]) failUsage("--out", typed.out[0], "is given twice");
-  if (options.stats && std::find(options.out.begin(), options.out.end(), *options.stats) != options.out.end())
-    failUsage("--stats", typed.stats, "is the name of an --out, too");
 }
 
 void addOptions(CLI::App& app, Typed& typed) {
@@ -255,6 +255,7 @@ void addOptions(CLI::App& app, Typed& typed) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--stats", typed.stats, "timings and counts as JSON")->type_name("S.json");
+  app.add_flag("--strict", typed.strict, "fail where there is a note: nothing is made up, left out or changed");
   app.add_option("--exposure", typed.exposure, "of the PNG, in stops (default: by the first picture's brightness)")
       ->type_name("STOPS");
 }
@@ -273,6 +274,7 @@ Options fromTyped(const Typed& typed) {
     options.changes = typed.detectChanges ? tyndall::Changes::Detect : tyndall::Changes::Objects;
   options.context = parseContext("--context", typed.context);
   readOutputs(typed, options);
+  options.strict = typed.strict;
   if (!typed.exposure.empty()) {
     options.exposureStops = parseFinite("--exposure", typed.exposure, typed.exposure);
     if (std::abs(*options.exposureStops) > 100)

@@ -61,6 +61,7 @@ struct Options {
   host::ContextKind context = host::ContextKind::Osmesa;
   std::vector<std::filesystem::path> out;
   std::optional<std::filesystem::path> stats;
+  bool strict = false;                 ///< whether a note ends it before a picture is written
   std::optional<double> exposureStops; ///< none: by the picture's brightness
 };
 

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <scene/Error.h>
 #include <scene/FileIo.h>
 #include <scene/ImageFile.h>
 
@@ -96,17 +94,6 @@ std::filesystem::path nameOfFrame(const std::filesystem::path& pattern, int fram
   return name;
 }
 
-void requireWritable(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file)) throw host::Error(host::printable(file.string()) + ": is a folder");
-  std::filesystem::path probe = file;
-  probe += ".probe";
-  const bool writable = std::ofstream(probe, std::ios::app).good();
-  std::error_code ignored;
-  std::filesystem::remove(probe, ignored);
-  if (!writable)
-    throw host::Error(host::printable(file.string()) + ": cannot be written: the folder is missing or locked");
-}
-
 float exposureOf(const Picture& picture) {
   constexpr double kMiddleGrey = 0.18;
   constexpr double kHighlight = 1.5; // the film curve still has some contrast left there
@@ -147,12 +134,8 @@ void writeStatistics(const std::filesystem::path& file, const Options& options, 
       json["frames"].push_back(statisticsOf(frame, options, driver));
   else
     json = statisticsOf(frames.front(), options, driver);
-  host::writeAndRename(file, [&json](const std::filesystem::path& temporary) {
-    std::ofstream stream(temporary);
-    // A driver's name may hold any bytes: those that are not UTF-8 are replaced instead of thrown over.
-    stream << json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
-    if (!stream.flush()) throw host::Error("cannot be written");
-  });
+  // A driver's name may hold any bytes: those that are not UTF-8 are replaced instead of thrown over.
+  host::writeText(file, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 } // namespace render

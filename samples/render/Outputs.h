@@ -12,9 +12,6 @@ namespace render {
 /// The name of a frame's picture: %04d becomes the number.
 std::filesystem::path nameOfFrame(const std::filesystem::path& pattern, int frame);
 
-/// Throws host::Error, which names the file, if it could not be written now. Leaves nothing behind.
-void requireWritable(const std::filesystem::path& file);
-
 /// What brings the picture's geometric mean radiance, black left out, to middle grey, or less if the brightest fiftieth
 /// would lose its contrast.
 float exposureOf(const Picture& picture);

@@ -2,8 +2,8 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <fmt/format.h>
+#include <scene/Tool.h>
 #include <unistd.h>
 
 namespace render {
@@ -18,7 +18,7 @@ Progress::Progress(int frameCount)
     : frameCount_(frameCount), shown_(frameCount > 1 && isatty(STDERR_FILENO) == 1), start_(now()) {}
 
 Progress::~Progress() {
-  if (shown_ && done_ > 0) std::fputc('\n', stderr);
+  if (shown_ && done_ > 0) host::sayRaw("\n");
 }
 
 double Progress::secondsSinceStart() const { return now() - start_; }
@@ -28,10 +28,8 @@ void Progress::step(double effectMilliseconds) {
   if (!shown_) return;
   const int left = static_cast<int>(std::lround(secondsSinceStart() / done_ * (frameCount_ - done_)));
   constexpr const char* kClearRestOfLine = "\x1b[K";
-  const std::string line = fmt::format("\rframe {}/{}  {:.1f} ms  {:02d}:{:02d} left{}", done_, frameCount_,
-                                       effectMilliseconds, left / 60, left % 60, kClearRestOfLine);
-  std::fputs(line.c_str(), stderr);
-  std::fflush(stderr);
+  host::sayRaw(fmt::format("\rframe {}/{}  {:.1f} ms  {:02d}:{:02d} left{}", done_, frameCount_, effectMilliseconds,
+                           left / 60, left % 60, kClearRestOfLine));
 }
 
 } // namespace render

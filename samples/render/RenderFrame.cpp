@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fmt/format.h>
 #include <gl/Gl.h>
 #include <gl/ReadBack.h>
+#include <scene/Advice.h>
 #include <scene/Error.h>
 #include <scene/GltfLoader.h>
 #include <scene/MediumFile.h>
@@ -167,6 +169,40 @@ void FrameRenderer::renderShadowMaps(const std::vector<glm::dmat4>& worldFromNod
   if (volumeShadows_) volumeShadows_->update(*sceneRenderer_, frame_.lights);
 }
 
+/// Whether nothing that the light sends into the medium reaches the eye: the inscatter by itself is 0 everywhere.
+bool FrameRenderer::isKeptOut(const tyndall::Light& light) {
+  tyndall::Frame frame = frame_;
+  frame.lights = {light};
+  frame.colour = 0;
+  frame.output.transmittance = 0;
+  frame.settings = tyndall::settingsOf(tyndall::Profile::High);
+  frame.reuse = {};
+  renderEffect(frame);
+  const std::vector<float> inscatter = host::readColour(inscatter_.name(), frame.width, frame.height, 3);
+  return std::all_of(inscatter.begin(), inscatter.end(), [](float value) { return value == 0; });
+}
+
+void FrameRenderer::noteEnclosures(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) {
+  const auto sum = [](const tyndall::Rgb& rgb) { return rgb[0] + rgb[1] + rgb[2]; };
+  const auto scatters = [&](const tyndall::Constituent& constituent) { return sum(constituent.scattering) > 0; };
+  const std::vector<tyndall::Constituent>& constituents = frame_.medium.constituents;
+  if (std::none_of(constituents.begin(), constituents.end(), scatters)) return;
+  for (const host::Enclosure& enclosure : host::enclosuresOf(scene_, worldFromNode, frame_.camera, frame_.lights)) {
+    const tyndall::Light& light = frame_.lights[static_cast<std::size_t>(enclosure.light)];
+    if (sum(light.colour) > 0 && isKeptOut(light))
+      notes.push_back(enclosure.mesh + " encloses the camera and all that it sees: light " +
+                      std::to_string(enclosure.light) + " is kept out; what is KHR_materials_unlit lets light in");
+  }
+}
+
+/// The surfaces' radiance is cut at what their colour format holds.
+void FrameRenderer::noteCutRadiance(host::Notes& notes) const {
+  const float most = surfaces_.maxRadiance();
+  const std::vector<float> colour = host::readColour(surfaces_.colour(), surfaces_.width(), surfaces_.height(), 3);
+  const auto cut = std::count_if(colour.begin(), colour.end(), [most](float value) { return value >= most; });
+  if (cut > 0) notes.push_back(fmt::format("radiance of surfaces is cut at {:g}, the most that is held", most));
+}
+
 // Smoke moves in every frame: all of the box around it may dim the light anew.
 void FrameRenderer::addMovedObjects(const std::vector<glm::dmat4>& worldFromNode, double seconds) {
   frame_.objects = host::movedObjects(scene_, meshBounds_, lastPose_, worldFromNode);
@@ -236,8 +272,12 @@ void FrameRenderer::draw(int frame) {
   frame_.lights = makeLights(worldFromNode, notes);
   const glm::vec3 sky = host::skyOf(scene_, worldFromNode, frame_.lights, notes);
   renderShadowMaps(worldFromNode, seconds, notes);
-  addOnce(notes_, notes);
+  const bool isFirst = lastPose_.empty();
+  if (isFirst) addOnce(notes, host::adviceOn(scene_, worldFromNode, frame_.camera));
   sceneRenderer_->renderScene(worldFromNode, frame_.camera, frame_.lights, surfaces_, sky, &frame_.medium);
+  if (isFirst) noteEnclosures(worldFromNode, notes);
+  if (!options_.out.empty()) noteCutRadiance(notes);
+  addOnce(notes_, notes);
   ++frame_.reuse.frame;
   frame_.objects.clear();
   if (options_.changes == tyndall::Changes::Objects && !lastPose_.empty()) addMovedObjects(worldFromNode, seconds);

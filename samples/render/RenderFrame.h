@@ -66,6 +66,9 @@ private:
   std::vector<tyndall::Light> makeLights(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) const;
   void renderShadowMaps(const std::vector<glm::dmat4>& worldFromNode, double seconds, host::Notes& notes);
   void makeVolumeShadows();
+  void noteEnclosures(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes);
+  bool isKeptOut(const tyndall::Light& light);
+  void noteCutRadiance(host::Notes& notes) const;
   void addMovedObjects(const std::vector<glm::dmat4>& worldFromNode, double seconds);
   bool hasVolumes() const;
   void restoreColour() const;

@@ -2,39 +2,34 @@
 
 #include "CommandLine.h"
 #include "Options.h"
+#include "OutputNames.h"
 #include "Outputs.h"
 #include "Progress.h"
 #include "RenderFrame.h"
 
 #include <cmath>
-#include <cstdio>
-#include <exception>
 #include <fmt/format.h>
-#include <new>
 #include <optional>
+#include <scene/Error.h>
 #include <scene/FileIo.h>
+#include <scene/Tool.h>
 
 namespace render {
 
 namespace {
 
-void requireWritableOutputs(const Options& options, const FrameRange& range) {
-  for (const std::filesystem::path& file : options.out)
-    requireWritable(nameOfFrame(file, range.first));
-  if (options.stats) requireWritable(*options.stats);
-}
-
 /// Prints the notes from `printed` on.
 void printNotes(const host::Notes& notes, std::size_t& printed) {
   for (; printed < notes.size(); ++printed)
-    fmt::print(stderr, "note: {}\n", host::printable(notes[printed]));
+    host::say("note: " + notes[printed]);
 }
 
 void printSummary(const Options& options, const FrameRenderer& renderer, const std::vector<FrameStatistics>& frames) {
   for (const FrameStatistics& frame : frames)
-    fmt::print("{} frame {}: {}x{}, {} lights, technique {}: effect {:.1f} ms ({})\n",
-               host::printable(options.scene.filename().string()), frame.frame, options.width, options.height,
-               renderer.lightCount(), options.technique, frame.measurement.median(), renderer.driver());
+    host::print(fmt::format("{} frame {}: {}x{}, {} lights, technique {}: effect {:.1f} ms ({})\n",
+                            host::printable(options.scene.filename().string()), frame.frame, options.width,
+                            options.height, renderer.lightCount(), options.technique, frame.measurement.median(),
+                            renderer.driver()));
 }
 
 std::vector<FrameStatistics> renderFrames(const Options& options, const FrameRange& range, FrameRenderer& renderer) {
@@ -46,6 +41,8 @@ std::vector<FrameStatistics> renderFrames(const Options& options, const FrameRan
   for (int frame = range.first; frame <= range.last; ++frame) {
     statistics.push_back({frame, renderer.render(frame)});
     printNotes(renderer.notes(), printed);
+    if (options.strict && printed > 0)
+      throw host::Error(fmt::format("{}: --strict allows no notes, there are {}", options.scene.string(), printed));
     if (!options.out.empty()) {
       const Picture picture = renderer.readPicture();
       if (!exposure) exposure = exposureOf(picture);
@@ -57,19 +54,15 @@ std::vector<FrameStatistics> renderFrames(const Options& options, const FrameRan
   return statistics;
 }
 
-void run(const Options& options) {
+int run(const Options& options) {
   const FrameRange range = options.frames.value_or(FrameRange{});
-  requireWritableOutputs(options, range);
+  const OutputNames names(options);
   FrameRenderer renderer(options);
+  names.requireOthersThan(renderer.scene().files);
   const std::vector<FrameStatistics> statistics = renderFrames(options, range, renderer);
   if (options.stats) writeStatistics(*options.stats, options, renderer.driver(), statistics);
   if (options.out.empty() && !options.stats) printSummary(options, renderer, statistics);
-}
-
-/// One line, whatever the message holds.
-int fail(int exitCode, const std::string& message) {
-  fmt::print(stderr, "tyndall-render: {}\n", host::printable(message));
-  return exitCode;
+  return 0;
 }
 
 } // namespace
@@ -77,21 +70,5 @@ int fail(int exitCode, const std::string& message) {
 } // namespace render
 
 int main(int argc, char** argv) {
-  constexpr int kFailed = 1;
-  constexpr int kWrongUsage = 2;
-  try {
-    render::run(render::parseOptions(argc, argv));
-    return 0;
-  } catch (const render::Answer& answer) {
-    fmt::print("{}", answer.text);
-    return 0;
-  } catch (const render::UsageError& error) {
-    render::fail(kWrongUsage, error.what());
-    fmt::print(stderr, "usage: tyndall-render SCENE.glb [options]; tyndall-render --help lists them\n");
-    return kWrongUsage;
-  } catch (const std::bad_alloc&) {
-    return render::fail(kFailed, "out of memory");
-  } catch (const std::exception& error) {
-    return render::fail(kFailed, error.what());
-  }
+  return render::runCommand("tyndall-render", [&] { return render::run(render::parseOptions(argc, argv)); });
 }

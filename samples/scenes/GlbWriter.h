@@ -6,7 +6,7 @@
 
 namespace scenes {
 
-/// Throws std::runtime_error where the file can't be written; nothing half-written stays behind.
+/// Throws host::Error where the file can't be written; nothing half-written stays behind.
 void writeGlb(const Scene& scene, const std::string& path);
 
 } // namespace scenes

@@ -1,49 +1,27 @@
 // tyndall-make-scenes OUTDIR [NAME...] [--turntable MODEL.glb]: writes the sample scenes as OUTDIR/NAME.glb, or a
 // model's own.
+#include "Generators.h"
 #include "GlbWriter.h"
 #include "MeshBuilder.h"
-#include "Scene.h"
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 #include <filesystem>
-#include <functional>
-#include <map>
+#include <scene/Tool.h>
 
 namespace {
-
-const std::map<std::string, std::function<scenes::Scene()>>& generators() {
-  static const std::map<std::string, std::function<scenes::Scene()>> kGenerators = {
-      {"nave", [] { return scenes::makeNave(false); }},
-      {"nave-glass", [] { return scenes::makeNave(true); }},
-      {"forest", scenes::makeForest},
-      {"terrain", scenes::makeTerrain},
-      {"cage", scenes::makeCage},
-      {"stage", [] { return scenes::makeStage(false); }},
-      {"concert", [] { return scenes::makeStage(true); }},
-      {"projector", scenes::makeProjector},
-      {"orrery", scenes::makeOrrery},
-      {"pendulum", scenes::makePendulum},
-      {"smoke", scenes::makeSmoke},
-      {"hair", scenes::makeHair},
-      {"censer", scenes::makeCenser},
-  };
-  return kGenerators;
-}
 
 void write(scenes::Scene scene, const std::filesystem::path& folder, const std::string& name) {
   scene.name = name;
   scenes::writeGlb(scene, (folder / (name + ".glb")).string());
-  std::printf("%s.glb: %zu triangles\n", name.c_str(), scenes::triangleCount(scene));
+  host::say(name + ".glb: " + std::to_string(scenes::triangleCount(scene)) + " triangles");
 }
 
 void run(const std::string& folder, std::vector<std::string> names) {
   if (names.empty())
-    for (const auto& [name, make] : generators())
+    for (const auto& [name, make] : scenes::generators())
       names.push_back(name);
   std::filesystem::create_directories(folder);
   for (const std::string& name : names)
-    write(generators().at(name)(), folder, name);
+    write(scenes::generators().at(name)(), folder, name);
 }
 
 int parseAndRun(int argc, char** argv) {
@@ -51,7 +29,7 @@ int parseAndRun(int argc, char** argv) {
   std::string folder, model;
   std::vector<std::string> names;
   std::vector<std::string> known;
-  for (const auto& [name, make] : generators())
+  for (const auto& [name, make] : scenes::generators())
     known.push_back(name);
   app.add_option("OUTDIR", folder, "folder of the .glb files")->required();
   app.add_option("--turntable", model,
@@ -74,10 +52,5 @@ int parseAndRun(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return parseAndRun(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "tyndall-make-scenes: %s\n", error.what());
-    return 1;
-  }
+  return host::runTool("tyndall-make-scenes", [&] { return parseAndRun(argc, argv); });
 }

@@ -5,8 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>
-#include <fstream>
 #include <render/CommandLine.h>
+#include <scene/Error.h>
+#include <scene/FileIo.h>
 
 namespace bench {
 
@@ -90,11 +91,11 @@ std::vector<host::ContextKind> parseContexts(const std::string& value) {
 
 void requireWritableFolder(const std::string& option, const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) failUsage(option, folder.string(), "must be a folder that exists");
-  const std::filesystem::path probe = folder / ".tyndall-bench-probe";
-  const bool writable = std::ofstream(probe).good();
-  std::error_code ignored;
-  std::filesystem::remove(probe, ignored);
-  if (!writable) failUsage(option, folder.string(), "must be a folder that can be written to");
+  try {
+    host::requireWritable(folder / "bench.csv");
+  } catch (const host::Error& error) {
+    failUsage(option, folder.string(), std::string("must be a folder that can be written to: ") + error.what());
+  }
 }
 
 void readReferences(const Typed& typed, Options& options) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <scene/Error.h>
 #include <scene/FileIo.h>
+#include <scene/Tool.h>
 #include <sys/utsname.h>
 #include <thread>
 #include <unistd.h>
@@ -76,41 +77,42 @@ void printTable(const std::vector<Result>& results) {
   for (const Result& r : results) {
     if (r.setup.label() != setup) {
       setup = r.setup.label();
-      fmt::print("\n{}  ({})\n{:<24}{:>10}{:>10}{:>10}{:>12}{:>12}{:>12}{:>9}{:>12}\n", setup, r.driver, "technique",
-                 "median ms", "min", "max", "rRMSE", "p99", "max err", "MiB", "visits/ray");
+      host::print(fmt::format("\n{}  ({})\n{:<24}{:>10}{:>10}{:>10}{:>12}{:>12}{:>12}{:>9}{:>12}\n", setup, r.driver,
+                              "technique", "median ms", "min", "max", "rRMSE", "p99", "max err", "MiB", "visits/ray"));
     }
     if (!r.ok()) {
-      fmt::print("{:<24}  {}\n", r.technique.name, r.failed.empty() ? "skipped: " + r.skipped : "FAILED: " + r.failed);
+      host::print(fmt::format("{:<24}  {}\n", r.technique.name,
+                              r.failed.empty() ? "skipped: " + r.skipped : "FAILED: " + r.failed));
       continue;
     }
     const reference::ErrorMetrics& error = r.errors.at("exact");
-    fmt::print("{:<24}{:>10.2f}{:>10.2f}{:>10.2f}{:>12}{:>12}{:>12}{:>9.1f}{:>12}\n", r.technique.name, r.median(),
-               r.least(), r.most(), percent(error.rRmse), percent(error.p99), percent(error.max),
-               static_cast<double>(r.bytes) / 1048576, visitsOf(r));
+    host::print(fmt::format("{:<24}{:>10.2f}{:>10.2f}{:>10.2f}{:>12}{:>12}{:>12}{:>9.1f}{:>12}\n", r.technique.name,
+                            r.median(), r.least(), r.most(), percent(error.rRmse), percent(error.p99),
+                            percent(error.max), static_cast<double>(r.bytes) / 1048576, visitsOf(r)));
     for (const char* other : {"map", "scene"})
       if (const auto found = r.errors.find(other); found != r.errors.end())
-        fmt::print("{:>53} {:>12}{:>12}{:>12}\n", std::string("against ") + other + "-exact",
-                   percent(found->second.rRmse), percent(found->second.p99), percent(found->second.max));
+        host::print(fmt::format("{:>53} {:>12}{:>12}{:>12}\n", std::string("against ") + other + "-exact",
+                                percent(found->second.rRmse), percent(found->second.p99), percent(found->second.max)));
   }
 }
 
 void printFloors(const std::vector<Result>& results) {
   for (const Result& r : results) {
     if (r.floors.empty()) continue;
-    fmt::print("\n{}: {} against its floors\n{:<24}{:>10}{:>10}{:>9}\n", r.setup.label(), r.technique.name, "pass",
-               "ms", "floor ms", "ratio");
+    host::print(fmt::format("\n{}: {} against its floors\n{:<24}{:>10}{:>10}{:>9}\n", r.setup.label(), r.technique.name,
+                            "pass", "ms", "floor ms", "ratio"));
     std::vector<PassFloor> rows = r.floors;
     rows.push_back(sumOf(r.floors));
     for (const PassFloor& row : rows)
-      fmt::print("{:<24}{:>10.3f}{:>10.3f}{:>8.2f}x\n", row.name, row.milliseconds, row.floor,
-                 row.milliseconds / row.floor);
+      host::print(fmt::format("{:<24}{:>10.3f}{:>10.3f}{:>8.2f}x\n", row.name, row.milliseconds, row.floor,
+                              row.milliseconds / row.floor));
   }
 }
 
 void printEqualErrors(const std::vector<EqualError>& rows) {
   if (rows.empty()) return;
-  fmt::print("\nSpeed at equal error\n{:<40}{:<20}{:<10}{:>9}{:>12}  {}\n", "setup", "profile", "against", "ms",
-             "rRMSE", "the best needs for that rRMSE; has at that time");
+  host::print(fmt::format("\nSpeed at equal error\n{:<40}{:<20}{:<10}{:>9}{:>12}  {}\n", "setup", "profile", "against",
+                          "ms", "rRMSE", "the best needs for that rRMSE; has at that time"));
   for (const EqualError& row : rows) {
     const std::string time =
         row.bestTime
@@ -118,18 +120,19 @@ void printEqualErrors(const std::vector<EqualError>& rows) {
             : fmt::format("none; least {} after {:.1f} ms", percent(row.leastError), row.leastErrorTime);
     const std::string error =
         row.bestError ? fmt::format("{} ({})", percent(*row.bestError), row.nearest) : "all are slower";
-    fmt::print("{:<40}{:<20}{:<10}{:>9.1f}{:>12}  {}; {}\n", row.setup, row.profile, nameOf(row.group),
-               row.milliseconds, percent(row.rRmse), time, error);
+    host::print(fmt::format("{:<40}{:<20}{:<10}{:>9.1f}{:>12}  {}; {}\n", row.setup, row.profile, nameOf(row.group),
+                            row.milliseconds, percent(row.rRmse), time, error));
   }
 }
 
 void printGrowths(const std::vector<Growth>& rows) {
   if (rows.empty()) return;
-  fmt::print("\nScaling: time ~ x^exponent\n{:<10}{:<24}{:>8}{:>12}{:>12}{:>12}{:>10}{:>10}\n", "series", "technique",
-             "points", "range of x", "first ms", "last ms", "growth", "exponent");
+  host::print(fmt::format("\nScaling: time ~ x^exponent\n{:<10}{:<24}{:>8}{:>12}{:>12}{:>12}{:>10}{:>10}\n", "series",
+                          "technique", "points", "range of x", "first ms", "last ms", "growth", "exponent"));
   for (const Growth& row : rows)
-    fmt::print("{:<10}{:<24}{:>8}{:>11.3g}x{:>12.2f}{:>12.2f}{:>9.2f}x{:>10.2f}\n", row.series, row.technique,
-               row.points, row.range, row.first, row.last, row.last / row.first, row.exponent);
+    host::print(fmt::format("{:<10}{:<24}{:>8}{:>11.3g}x{:>12.2f}{:>12.2f}{:>9.2f}x{:>10.2f}\n", row.series,
+                            row.technique, row.points, row.range, row.first, row.last, row.last / row.first,
+                            row.exponent));
 }
 
 namespace {
@@ -139,14 +142,6 @@ std::string quoted(const std::string& text) {
   for (const char c : text)
     result += c == '"' ? "\"\"" : std::string(1, c);
   return result + "\"";
-}
-
-void writeText(const std::filesystem::path& file, const std::string& text) {
-  host::writeAndRename(file, [&text](const std::filesystem::path& temporary) {
-    std::ofstream stream(temporary);
-    stream << text;
-    if (!stream.flush()) throw host::Error("cannot be written");
-  });
 }
 
 Json passesOf(const Result& result) {
@@ -227,7 +222,7 @@ void writeCsv(const std::filesystem::path& file, const std::vector<Result>& resu
     }
     text += "," + quoted(r.skipped) + "," + quoted(r.failed) + "\n";
   }
-  writeText(file, text);
+  host::writeText(file, text);
 }
 
 void writeJson(const std::filesystem::path& file, const Machine& machine, const std::vector<Result>& results) {
@@ -262,7 +257,7 @@ void writeJson(const std::filesystem::path& file, const Machine& machine, const 
                                {"last_ms", row.last},
                                {"exponent", row.exponent}});
   // A driver's name may hold any bytes: those that are not UTF-8 are replaced instead of thrown over.
-  writeText(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  host::writeText(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 } // namespace bench

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
+#include <scene/Tool.h>
 #include <unistd.h>
 
 namespace bench {
@@ -20,13 +21,12 @@ void Progress::begin(const std::string& what, int units) {
     const int seconds = static_cast<int>(elapsed.count() / done * (units_ - done));
     left = fmt::format("{:02d}:{:02d}", seconds / 60, seconds % 60);
   }
-  fmt::print(stderr, "\r[{:<24}] {}/{}  {} left  {}\x1b[K", bar, done, units_, left, what);
-  std::fflush(stderr);
+  host::sayRaw(fmt::format("\r[{:<24}] {}/{}  {} left  {}\x1b[K", bar, done, units_, left, what));
   begun_ += units;
 }
 
 void Progress::clear() const {
-  if (shown_) fmt::print(stderr, "\r\x1b[K");
+  if (shown_) host::sayRaw("\r\x1b[K");
 }
 
 } // namespace bench

@@ -66,7 +66,7 @@ private:
 
 } // namespace
 
-TEST_CASE("wrong usage is one line that names the option, exit code 2") {
+TEST_CASE("wrong usage is a line that names the option and one on how to get help, exit code 2") {
   const std::array<std::array<const char*, 2>, 18> cases = {{
       {"--scenes cathedral", "--scenes cathedral: must be all or of nave"},
       {"--scenes nave,,stage", "--scenes \"nave,,stage\": must be a list separated by single commas"},
@@ -92,7 +92,7 @@ TEST_CASE("wrong usage is one line that names the option, exit code 2") {
     INFO(arguments << " -> " << result.output);
     CHECK(result.exitCode == 2);
     CHECK(result.output.find(message) != std::string::npos);
-    CHECK(std::count(result.output.begin(), result.output.end(), '\n') == 1);
+    CHECK(std::count(result.output.begin(), result.output.end(), '\n') == 2);
   }
 }
 

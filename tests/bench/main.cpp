@@ -11,6 +11,7 @@
 #include <render/CommandLine.h>
 #include <scene/Error.h>
 #include <scene/FileIo.h>
+#include <scene/Tool.h>
 
 namespace bench {
 
@@ -20,7 +21,7 @@ std::atomic<bool> stopAsked{false};
 
 void askToStop(int signal) {
   stopAsked = true;
-  std::signal(signal, SIG_DFL); // the second Ctrl-C ends at once
+  std::signal(signal, host::endWithoutUnfinished); // the second Ctrl-C ends at once
 }
 
 void write(const Options& options, const Machine& machine, const std::vector<Result>& results) {
@@ -48,7 +49,7 @@ std::vector<Result> measureAll(const Options& options, const Machine& machine) {
   measureOptions.stop = &stopAsked;
   const ReferenceCache cache(options.cache, [&progress](const std::string& line) {
     progress.clear();
-    fmt::print(stderr, "note: {}\n", host::printable(line));
+    host::say("note: " + line);
   });
   std::vector<Result> results;
   for (const Setup& setup : options.setups) {
@@ -73,7 +74,7 @@ std::vector<Result> measureAll(const Options& options, const Machine& machine) {
 int run(const Options& options) {
   std::signal(SIGINT, askToStop);
   const Machine machine = thisMachine();
-  fmt::print("{}, {} cores; commit {}\n", machine.processor, machine.cores, machine.commit);
+  host::print(fmt::format("{}, {} cores; commit {}\n", machine.processor, machine.cores, machine.commit));
   const std::vector<Result> results = measureAll(options, machine);
   printEqualErrors(equalErrors(results));
   printGrowths(growths(results));
@@ -82,17 +83,11 @@ int run(const Options& options) {
   for (const Result& result : results)
     if (!result.failed.empty()) {
       ++failed;
-      fmt::print(stderr, "tyndall-bench: {}: {} failed: {}\n", result.setup.label(), result.technique.name,
-                 result.failed);
+      host::say(
+          fmt::format("tyndall-bench: {}: {} failed: {}", result.setup.label(), result.technique.name, result.failed));
     }
-  if (stopAsked) fmt::print(stderr, "tyndall-bench: ended early; {} finished cases are kept\n", results.size());
+  if (stopAsked) host::say(fmt::format("tyndall-bench: ended early; {} finished cases are kept", results.size()));
   return failed > 0 || stopAsked ? 1 : 0;
-}
-
-/// One line, whatever the message holds.
-int fail(int exitCode, const std::string& message) {
-  fmt::print(stderr, "tyndall-bench: {}\n", host::printable(message));
-  return exitCode;
 }
 
 } // namespace
@@ -100,16 +95,5 @@ int fail(int exitCode, const std::string& message) {
 } // namespace bench
 
 int main(int argc, char** argv) {
-  constexpr int kFailed = 1;
-  constexpr int kWrongUsage = 2;
-  try {
-    return bench::run(bench::parseOptions(argc, argv));
-  } catch (const render::Answer& answer) {
-    fmt::print("{}", answer.text);
-    return 0;
-  } catch (const render::UsageError& error) {
-    return bench::fail(kWrongUsage, error.what());
-  } catch (const std::exception& error) {
-    return bench::fail(kFailed, error.what());
-  }
+  return render::runCommand("tyndall-bench", [&] { return bench::run(bench::parseOptions(argc, argv)); });
 }

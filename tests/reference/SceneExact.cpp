@@ -59,12 +59,12 @@ std::vector<Triangle> trianglesOf(const host::Scene& scene, const std::vector<gl
     if (scene.nodes[n].mesh < 0) continue;
     for (const host::Primitive& primitive : scene.meshes[static_cast<std::size_t>(scene.nodes[n].mesh)].primitives) {
       const host::Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
-      const bool glass = material.isGlass();
-      const bool clear =
-          (material.alphaMode == host::AlphaMode::Mask && material.baseColour.a < material.alphaCutoff) ||
-          (material.alphaMode == host::AlphaMode::Blend && material.baseColour.a < 0.5F);
-      if (primitive.topology != host::Topology::Triangles || (clear && !glass)) continue;
-      const Rgb tint = Rgb(material.baseColour) * static_cast<double>(material.transmission);
+      const bool blended = material.alphaMode == host::AlphaMode::Blend;
+      const bool glass = material.isGlass() || (blended && material.baseColour.a < 1);
+      const bool clear = material.alphaMode == host::AlphaMode::Mask && material.baseColour.a < material.alphaCutoff;
+      if (primitive.topology != host::Topology::Triangles || material.unlit || (clear && !glass)) continue;
+      const double covered = blended ? material.baseColour.a : 1;
+      const Rgb tint = 1 - covered + covered * (Rgb(material.baseColour) * static_cast<double>(material.transmission));
       const auto corner = [&](std::size_t i) {
         return glm::dvec3(worldFromNode[n] * glm::dvec4(primitive.vertices[primitive.indices[i]].position, 1));
       };

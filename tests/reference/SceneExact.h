@@ -22,9 +22,10 @@ struct Triangle {
   Rgb tint{1}; ///< of glass: what passes of the light
 };
 
-/// The triangles of a posed scene in world space. Glass: Material::isGlass, tint = base colour factor * transmission
-/// factor. Textures are not looked at: a masked material is opaque unless its alpha factor is below the cutoff, a
-/// blended one unless its alpha factor is below 0.5; those are left out.
+/// The triangles of a posed scene in world space that are not unlit. Glass: Material::isGlass, tint = base colour
+/// factor
+/// * transmission factor; of a blended material so much as alpha covers, and the rest is clear. Textures are not looked
+/// at: a masked material is opaque unless its alpha factor is below the cutoff; then it is left out.
 std::vector<Triangle> trianglesOf(const host::Scene& scene, const std::vector<glm::dmat4>& worldFromNode);
 
 struct SceneView {

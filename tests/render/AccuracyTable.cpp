@@ -3,8 +3,8 @@
 #include "reference/Metrics.h"
 #include "render/SceneAnswers.h"
 
-#include <cstdio>
-#include <exception>
+#include <fmt/format.h>
+#include <scene/Tool.h>
 
 namespace {
 
@@ -19,24 +19,20 @@ void printRows(const std::string& scene) {
     const reference::ErrorMetrics map =
         reference::compare(answers.exact.inscatter, reference::mapExact(answers.maps).inscatter);
     const reference::ErrorMetrics geometry = reference::compare(answers.exact.inscatter, truth);
-    std::printf("| %s | %d² | %.2g %% | %.2g %% | %.2g %% | %.2g %% |\n", scene.c_str(), size, 100 * map.rRmse,
-                100 * map.p99, 100 * geometry.rRmse, 100 * geometry.p99);
-    std::fflush(stdout);
+    host::print(fmt::format("| {} | {}² | {:.2g} % | {:.2g} % | {:.2g} % | {:.2g} % |\n", scene, size, 100 * map.rRmse,
+                            100 * map.p99, 100 * geometry.rRmse, 100 * geometry.p99));
   }
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-  try {
-    std::printf(
+  return host::runTool("tyndall-accuracy", [&] {
+    host::print(
         "| scene | shadow map | rRMSE, map-exact | p99 | rRMSE, scene-exact | p99 |\n|---|---|---|---|---|---|\n");
     const std::vector<std::string> named(argv + 1, argv + argc);
     for (const std::string& scene : named.empty() ? tests::sampleScenes() : named)
       printRows(scene);
     return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "tyndall-accuracy: %s\n", error.what());
-    return 1;
-  }
+  });
 }

@@ -3,11 +3,11 @@
 #include "reference/Metrics.h"
 #include "render/SceneAnswers.h"
 
-#include <cstdio>
-#include <exception>
 #include <filesystem>
-#include <fstream>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <scene/FileIo.h>
+#include <scene/Tool.h>
 
 namespace {
 
@@ -22,7 +22,7 @@ std::filesystem::path writeIsotropic(const tyndall::Medium& medium) {
   const nlohmann::json json = {{"constituents", {{{"scattering", sum}, {"phase", "isotropic"}}}},
                                {"absorption", medium.absorption}};
   const std::filesystem::path path = std::filesystem::temp_directory_path() / "tyndall-low-rank-medium.json";
-  std::ofstream(path) << json;
+  host::writeText(path, json.dump());
   return path;
 }
 
@@ -32,35 +32,31 @@ void printRow(const std::string& scene) {
   options.profile = "high";
   options.technique = "tree";
   const reference::Image truth = tests::renderScene(options).exact.inscatter;
-  std::printf("| %s |", scene.c_str());
+  host::print("| " + scene + " |");
   options.technique = "lowrank";
   for (int terms = 1; terms <= kTerms; ++terms) {
     options.lowRankTerms = terms;
     const reference::ErrorMetrics error = reference::compare(tests::renderScene(options).exact.inscatter, truth);
-    std::printf(" %.2g %% |", 100 * error.rRmse);
-    std::fflush(stdout);
+    host::print(fmt::format(" {:.2g} % |", 100 * error.rRmse));
   }
-  std::printf("\n");
+  host::print("\n");
   std::filesystem::remove(*options.medium);
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-  try {
-    std::printf("| rRMSE against tree |");
+  return host::runTool("tyndall-low-rank", [&] {
+    host::print("| rRMSE against tree |");
     for (int terms = 1; terms <= kTerms; ++terms)
-      std::printf(" N = %d |", terms);
-    std::printf("\n|---|");
+      host::print(fmt::format(" N = {} |", terms));
+    host::print("\n|---|");
     for (int terms = 1; terms <= kTerms; ++terms)
-      std::printf("---|");
-    std::printf("\n");
+      host::print("---|");
+    host::print("\n");
     const std::vector<std::string> named(argv + 1, argv + argc);
     for (const std::string& scene : named.empty() ? tests::sampleScenes() : named)
       printRow(scene);
     return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "tyndall-low-rank: %s\n", error.what());
-    return 1;
-  }
+  });
 }

@@ -6,11 +6,11 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <fmt/format.h>
 #include <gl/Gl.h>
 #include <gl/ReadBack.h>
 #include <scene/Error.h>
+#include <scene/Tool.h>
 
 namespace {
 
@@ -62,16 +62,16 @@ double difference(const std::vector<float>& a, const std::vector<float>& b) {
   return sum > 0 ? most * static_cast<double>(a.size()) / sum : most;
 }
 
-void run(render::Options options) {
+int run(render::Options options) {
   if (!options.frames) throw render::UsageError("--frames is missing");
   options.changes = Changes::Objects; // the renderer tells what moved
   render::FrameRenderer renderer(options);
   std::array<Way, kWays.size()> ways;
   for (Way& way : ways)
     way.effect = makeEffect(renderer);
-  fmt::print("# {}, {}x{}, shadow map {}, profile {}, {}\n", options.scene.filename().string(), options.width,
-             options.height, options.shadowSize, options.profile, renderer.driver());
-  fmt::print("frame,full_ms,objects_ms,detect_ms,objects_share,detect_share,objects_error,detect_error\n");
+  host::print(fmt::format("# {}, {}x{}, shadow map {}, profile {}, {}\n", options.scene.filename().string(),
+                          options.width, options.height, options.shadowSize, options.profile, renderer.driver()));
+  host::print("frame,full_ms,objects_ms,detect_ms,objects_share,detect_share,objects_error,detect_error\n");
   for (int number = options.frames->first; number <= options.frames->last; ++number) {
     renderer.draw(number);
     std::vector<float> full;
@@ -86,26 +86,15 @@ void run(render::Options options) {
       if (i == 0) full = colour;
       ways[i].error = difference(colour, full);
     }
-    fmt::print("{},{:.2f},{:.2f},{:.2f},{:.4f},{:.4f},{:.2e},{:.2e}\n", number, ways[0].milliseconds,
-               ways[1].milliseconds, ways[2].milliseconds, ways[1].share, ways[2].share, ways[1].error, ways[2].error);
-    std::fflush(stdout);
+    host::print(fmt::format("{},{:.2f},{:.2f},{:.2f},{:.4f},{:.4f},{:.2e},{:.2e}\n", number, ways[0].milliseconds,
+                            ways[1].milliseconds, ways[2].milliseconds, ways[1].share, ways[2].share, ways[1].error,
+                            ways[2].error));
   }
+  return 0;
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-  try {
-    run(render::parseOptions(argc, argv));
-    return 0;
-  } catch (const render::Answer& answer) {
-    fmt::print("{}", answer.text);
-    return 0;
-  } catch (const render::UsageError& error) {
-    fmt::print(stderr, "tyndall-sequence: {}\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "tyndall-sequence: {}\n", error.what());
-    return 1;
-  }
+  return render::runCommand("tyndall-sequence", [&] { return run(render::parseOptions(argc, argv)); });
 }

@@ -93,6 +93,22 @@ std::vector<std::uint8_t> loadUri(Document& document, const std::string& uri) {
   return readFile(file, kMaxFileBytes);
 }
 
+std::vector<std::filesystem::path> filesOf(const Document& document) {
+  std::vector<std::filesystem::path> files = {document.file()};
+  for (const char* collection : {"buffers", "images"}) {
+    for (std::size_t i = 0; i < document.count(collection); ++i) {
+      const auto uri = document.json[collection][i].value("uri", std::string("data:"));
+      if (uri.rfind("data:", 0) == 0) continue;
+      try {
+        files.push_back(document.file().parent_path() / relativePath(uri));
+      } catch (const Error&) {
+        continue; // names no file that is looked for
+      }
+    }
+  }
+  return files;
+}
+
 void loadBuffers(Document& document) {
   const std::size_t count = document.count("buffers");
   for (std::size_t i = 0; i < count; ++i) {

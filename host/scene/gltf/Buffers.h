@@ -9,6 +9,9 @@ namespace host::gltf {
 /// (no file or path before it) for other schemes, absolute paths, paths that leave the folder, and unreadable files.
 std::vector<std::uint8_t> loadUri(Document& document, const std::string& uri);
 
+/// The document's file and those that its buffers and images name, whether they can be read or not.
+std::vector<std::filesystem::path> filesOf(const Document& document);
+
 /// Sets document.buffers. Refuses a buffer that cannot be read or is shorter than its byteLength; one without any
 /// source stays null and is refused when something is read from it.
 void loadBuffers(Document& document);

@@ -12,8 +12,8 @@ namespace {
 /// What a file may require of us. Extensions that only change a material's look are fine, too: they are noted.
 constexpr std::array<std::string_view, 3> kSupportedExtensions = {"KHR_lights_punctual", "KHR_mesh_quantization",
                                                                   "KHR_texture_transform"};
-constexpr std::array<std::string_view, 2> kSupportedMaterialExtensions = {"KHR_materials_transmission",
-                                                                          "KHR_materials_emissive_strength"};
+constexpr std::array<std::string_view, 3> kSupportedMaterialExtensions = {
+    "KHR_materials_transmission", "KHR_materials_emissive_strength", "KHR_materials_unlit"};
 constexpr std::string_view kMaterialPrefix = "KHR_materials_";
 
 template <std::size_t N>

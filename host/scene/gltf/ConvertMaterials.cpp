@@ -35,6 +35,7 @@ public:
     if (const nlohmann::json* transmission = extension(json, "KHR_materials_transmission")) {
       material.transmission = clamped(transmission->value("transmissionFactor", 0.0), 1, "transmissionFactor");
     }
+    material.unlit = extension(json, "KHR_materials_unlit") != nullptr;
     material.emission = emission(source, json);
     const TextureCoordinates coordinates = baseColourTexture(source, json, material);
     scene_.materials.push_back(std::move(material));

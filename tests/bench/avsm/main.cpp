@@ -9,12 +9,14 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <gl/Context.h>
 #include <map>
 #include <optional>
 #include <scene/Error.h>
+#include <scene/FileIo.h>
 #include <scene/ImageFile.h>
+#include <scene/Tool.h>
+#include <sstream>
 
 namespace avsmbench {
 
@@ -102,7 +104,7 @@ public:
         all[name].push_back(time);
     }
     for (const auto& [name, times] : all)
-      fmt::print("{}, {} nodes: {} {:.2f} ms\n", scene_.name, nodes, name, median(times));
+      host::print(fmt::format("{}, {} nodes: {} {:.2f} ms\n", scene_.name, nodes, name, median(times)));
   }
 
   /// Transmittance of some texels: "scene,texel,method,depth,transmittance".
@@ -216,19 +218,18 @@ void run(const Options& options) {
   const std::unique_ptr<host::Context> context = host::Context::create(host::parseContextKind(options.context));
   if (context->glVersion() < 43) throw host::Error("the context is older than OpenGL 4.3");
   const std::vector<MethodEntry> methods = chosen(options);
-  std::ofstream curves;
-  if (!options.curves.empty()) {
-    curves.open(options.curves);
-    curves << "scene,texel,method,depth,transmittance\n";
-  }
+  for (const std::string& file : {options.csv, options.curves})
+    if (!file.empty()) host::requireWritable(file);
+  std::ostringstream curves;
+  curves << "scene,texel,method,depth,transmittance\n";
   std::vector<Row> rows;
   for (const std::string& name : options.scenes) {
     const MapScene scene = makeMapScene(name, options.size);
     std::size_t most = 0;
     for (const auto& texel : segmentsByTexel(scene))
       most = std::max(most, texel.size());
-    fmt::print("{}: {} segments, {:.1f} a texel, {} at most\n", name, scene.segments.size(),
-               static_cast<double>(scene.segments.size()) / (options.size * options.size), most);
+    host::print(fmt::format("{}: {} segments, {:.1f} a texel, {} at most\n", name, scene.segments.size(),
+                            static_cast<double>(scene.segments.size()) / (options.size * options.size), most));
     Bench bench(scene, options, context->loader());
     if (options.passes)
       for (const tyndall::CurveReduction reduction :
@@ -236,17 +237,17 @@ void run(const Options& options) {
         bench.printPasses(8, true, reduction);
     for (const MethodEntry& entry : methods) {
       rows.push_back(bench.measure(entry));
-      fmt::print(stderr, "{}: {}\n", name, entry.name);
+      host::say(fmt::format("{}: {}", name, entry.name));
     }
-    if (curves.is_open()) bench.writeCurves(curves, methods);
+    if (!options.curves.empty()) bench.writeCurves(curves, methods);
     if (!options.images.empty()) bench.writeImages(options.images, methods);
     for (const std::string& error : context->takeErrors())
       throw host::Error(error);
   }
-  fmt::print("{}; baseline: {}; median of {} runs\n\n", context->driver(), kBaseline, options.runs);
+  host::print(fmt::format("{}; baseline: {}; median of {} runs\n\n", context->driver(), kBaseline, options.runs));
   printMarkdown(rows);
   if (!options.csv.empty()) writeCsv(options.csv, rows);
-  if (curves.is_open() && !curves.flush()) throw host::Error(options.curves + ": cannot be written");
+  if (!options.curves.empty()) host::writeText(options.curves, curves.str());
 }
 
 } // namespace
@@ -267,12 +268,9 @@ int main(int argc, char** argv) {
   app.add_option("--images", options.images, "a folder for pictures of look-ups, with differences")
       ->check(CLI::ExistingDirectory);
   app.add_flag("--passes", options.passes, "times of the passes of resolve() as well");
-  CLI11_PARSE(app, argc, argv);
-  try {
+  return host::runTool("tyndall-avsm-bench", [&] {
+    CLI11_PARSE(app, argc, argv);
     avsmbench::run(options);
     return 0;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "tyndall-avsm-bench: {}\n", error.what());
-    return 1;
-  }
+  });
 }

@@ -119,7 +119,7 @@ TEST_CASE("shadow maps refuse sizes and views that are not", "[shadow]") {
   CHECK(!renderer.renderShadowMap({}, light, 4).depth);
 }
 
-TEST_CASE("masked and blended casters are cut out, glass casts no shadow", "[shadow]") {
+TEST_CASE("masked and blended casters are cut out, glass and what is unlit cast no shadow", "[shadow]") {
   tests::testContext();
   const tyndall::Light light = tests::sunAlongZ(2, 0, -10);
   const std::size_t left = kSize / 2 * kSize + kSize / 4;
@@ -135,21 +135,68 @@ TEST_CASE("masked and blended casters are cut out, glass casts no shadow", "[sha
     CHECK(depth[left] == 1.0F);
     CHECK(depth[right] == Approx(0.5));
   }
-  SECTION("blended, above and below one half") {
+  SECTION("blended: a shadow only where opaque") {
     host::Scene scene = tests::emptyScene();
     material.alphaMode = host::AlphaMode::Blend;
-    material.baseColour.a = 0.6F;
     addWall(scene, -5, 1, addMaterial(scene, material), {1, 0});
-    material.baseColour.a = 0.4F;
+    material.baseColour.a = 0.6F;
     addWall(scene, -5, 1, addMaterial(scene, material), {-1, 0});
     const std::vector<float> depth = shadowOf(scene, light);
     CHECK(depth[left] == 1.0F);
     CHECK(depth[right] == Approx(0.5));
   }
+  SECTION("unlit") {
+    host::Scene scene = tests::emptyScene();
+    material.unlit = true;
+    addWall(scene, -5, 2, addMaterial(scene, material));
+    CHECK(shadowOf(scene, light)[kMiddle] == 1.0F);
+  }
   SECTION("glass") {
     host::Scene scene = tests::emptyScene();
     addWall(scene, -5, 2, addMaterial(scene, glassOf({1, 0, 0}, 1)));
     CHECK(shadowOf(scene, light)[kMiddle] == 1.0F);
+  }
+}
+
+TEST_CASE("a blended surface lets 1 - alpha of the light through, texel by texel", "[shadow]") {
+  tests::testContext();
+  const tyndall::Light light = tests::sunAlongZ(2, 0, -10);
+  const std::size_t left = kSize / 2 * kSize; // at the borders, where the texture is not interpolated
+  const std::size_t right = left + kSize - 1;
+  const auto tintOf = [&](const host::Scene& scene) {
+    host::SceneRenderer renderer(scene);
+    const host::ShadowMapTextures maps = renderer.renderShadowMap(restPose(scene), light, kSize);
+    REQUIRE(maps.glassColour);
+    return host::readColourArray(maps.glassColour.name(), kSize, kSize, 0, 1);
+  };
+  host::Material material;
+  material.alphaMode = host::AlphaMode::Blend;
+  material.baseColour = {0.2F, 0.2F, 0.2F, 0.5F};
+
+  SECTION("plain") {
+    host::Scene scene = tests::emptyScene();
+    addWall(scene, -5, 2, addMaterial(scene, material));
+    CHECK(tintOf(scene)[kMiddle] == Approx(0.5).epsilon(1e-3));
+  }
+  SECTION("two, one after the other") {
+    host::Scene scene = tests::emptyScene();
+    addWall(scene, -5, 2, addMaterial(scene, material));
+    addWall(scene, -6, 2, addMaterial(scene, material));
+    CHECK(tintOf(scene)[kMiddle] == Approx(0.25).epsilon(1e-3));
+  }
+  SECTION("textured: alpha 0 on the left, 1 on the right") {
+    host::Scene scene = tests::emptyScene();
+    material.baseColour.a = 0.75F;
+    material.texture = addHalfTexture(scene);
+    addWall(scene, -5, 2, addMaterial(scene, material));
+    CHECK(tintOf(scene)[left] == Approx(1).epsilon(1e-3));
+    CHECK(tintOf(scene)[right] == Approx(0.25).epsilon(1e-3));
+  }
+  SECTION("with transmission: what it covers is glass") {
+    host::Scene scene = tests::emptyScene();
+    material.transmission = 1;
+    addWall(scene, -5, 2, addMaterial(scene, material));
+    CHECK(tintOf(scene)[kMiddle] == Approx(0.5 + 0.5 * 0.2).epsilon(1e-3));
   }
 }
 

@@ -212,6 +212,28 @@ TEST_CASE("without a file to write tyndall-render prints a summary, and notes on
   CHECK(folder.files() == std::vector<std::string>{"triangle.gltf"});
 }
 
+TEST_CASE("--strict fails where a scene lacks light, camera or medium, and writes nothing") {
+  const tests::ToolFolder folder;
+  const Arguments picture = {"--size", "16x9",  "--shadow-size", "16",    "--strict",
+                             "--out",  "a.png", "--stats",       "s.json"};
+  const auto run = [&](Arguments arguments) {
+    arguments.insert(arguments.end(), picture.begin(), picture.end());
+    return folder.run(arguments);
+  };
+  const tests::ToolResult refused = run({"triangle.gltf"});
+  CHECK(refused.exitCode == 1);
+  for (const char* line : {"note: scene has no camera", "note: scene has no light", "note: scene has no medium",
+                           "tyndall-render: triangle.gltf: --strict allows no notes"})
+    CHECK(refused.err.find(line) != std::string::npos);
+  CHECK(folder.files() == std::vector<std::string>{"triangle.gltf"});
+
+  const std::string scene = std::string(TYNDALL_SCENES_DIR) + "/smoke.glb";
+  const tests::ToolResult complete = run({scene});
+  CAPTURE(complete.err);
+  CHECK(complete.exitCode == 0);
+  CHECK(complete.err.empty());
+}
+
 TEST_CASE("help and version answer on standard output") {
   const tests::ToolFolder folder;
   const tests::ToolResult help = folder.run({"--help"});

@@ -30,19 +30,18 @@ std::string contentOf(const std::filesystem::path& file) {
   return content.str();
 }
 
-std::filesystem::path toolPath() {
-  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "tyndall-render";
-}
+/// Where the tools lie.
+std::filesystem::path binFolder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path(); }
 
-/// In the child process: becomes the tool, or ends.
-[[noreturn]] void becomeTool(const std::filesystem::path& folder, const std::vector<std::string>& arguments, int out,
-                             int err) {
-  std::vector<std::string> command = {"timeout", "60", toolPath().string()};
-  command.insert(command.end(), arguments.begin(), arguments.end());
+/// In the child process: becomes the command, or ends.
+[[noreturn]] void become(const std::filesystem::path& folder, std::vector<std::string> command, int out, int err) {
+  command.insert(command.begin(), {"timeout", "60"});
   std::vector<char*> pointers;
   for (std::string& part : command)
     pointers.push_back(part.data());
   pointers.push_back(nullptr);
+  const char* path = getenv("PATH"); // NOLINT(concurrency-mt-unsafe): a child has one thread
+  setenv("PATH", (binFolder().string() + ":" + (path ? path : "/usr/bin:/bin")).c_str(), 1); // NOLINT
   const int nothing = open("/dev/null", O_RDONLY);
   if (chdir(folder.c_str()) == 0 && dup2(nothing, 0) == 0 && dup2(out, 1) == 1 && dup2(err, 2) == 2)
     execvp("timeout", pointers.data());
@@ -85,13 +84,20 @@ std::vector<std::string> ToolFolder::files() const {
   return names;
 }
 
-ToolResult ToolFolder::run(const std::vector<std::string>& arguments) const {
+ToolResult ToolFolder::run(std::vector<std::string> arguments) const {
+  arguments.insert(arguments.begin(), (binFolder() / "tyndall-render").string());
+  return runCommand(arguments);
+}
+
+ToolResult ToolFolder::shell(const std::string& command) const { return runCommand({"sh", "-c", command}); }
+
+ToolResult ToolFolder::runCommand(const std::vector<std::string>& command) const {
   const std::string outName = folder_.string() + ".out";
   const std::string errName = folder_.string() + ".err";
   const int out = open(outName.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
   const int err = open(errName.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
   const pid_t child = fork();
-  if (child == 0) becomeTool(folder_, arguments, out, err);
+  if (child == 0) become(folder_, command, out, err);
   int status = 0;
   waitpid(child, &status, 0);
   close(out);

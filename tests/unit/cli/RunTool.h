@@ -30,9 +30,14 @@ public:
   std::vector<std::string> files() const; ///< the names of all that lies in it, sorted
 
   /// Runs tyndall-render with this folder as the working directory.
-  ToolResult run(const std::vector<std::string>& arguments) const;
+  ToolResult run(std::vector<std::string> arguments) const;
+
+  /// Runs a shell's command there; all of the project's tools are found by name.
+  ToolResult shell(const std::string& command) const;
 
 private:
+  ToolResult runCommand(const std::vector<std::string>& command) const;
+
   std::filesystem::path folder_;
 };
 

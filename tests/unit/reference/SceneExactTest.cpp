@@ -291,9 +291,9 @@ TEST_CASE("scene-exact and map-exact agree on a map of analytic depth", "[refere
   CHECK(error.max < 1e-9);
 }
 
-TEST_CASE("triangles of a host scene: glass, masks, blends and poses", "[reference][scene]") {
+TEST_CASE("triangles of a host scene: glass, masks, blends, unlit ones and poses", "[reference][scene]") {
   host::Scene source;
-  source.materials.resize(5);
+  source.materials.resize(6);
   source.materials[1].transmission = 0.5F;
   source.materials[1].baseColour = {0.5F, 1, 0.25F, 1};
   source.materials[2].alphaMode = host::AlphaMode::Mask;
@@ -301,9 +301,11 @@ TEST_CASE("triangles of a host scene: glass, masks, blends and poses", "[referen
   source.materials[3].alphaMode = host::AlphaMode::Blend;
   source.materials[3].baseColour.a = 0.6F;
   source.materials[4].alphaMode = host::AlphaMode::Blend;
-  source.materials[4].baseColour.a = 0.4F;
+  source.materials[4].baseColour.a = 0.25F;
+  source.materials[4].transmission = 0.5F;
+  source.materials[5].unlit = true;
   host::Mesh mesh;
-  for (int material = 0; material < 5; ++material) {
+  for (int material = 0; material < 6; ++material) {
     host::Primitive primitive;
     primitive.vertices.resize(3);
     primitive.vertices[1].position = {1, 0, 0};
@@ -319,10 +321,14 @@ TEST_CASE("triangles of a host scene: glass, masks, blends and poses", "[referen
   source.nodes[1].mesh = 0;
   const std::vector<Triangle> triangles =
       trianglesOf(source, {glm::dmat4(1), glm::translate(glm::dmat4(1), glm::dvec3(0, 10, 0))});
-  REQUIRE(triangles.size() == 3);
+  REQUIRE(triangles.size() == 4);
   CHECK(!triangles[0].glass);
   CHECK(triangles[0].b == glm::dvec3(1, 10, 0));
   CHECK(triangles[1].glass);
   CHECK(triangles[1].tint == Rgb(0.25, 0.5, 0.125));
   CHECK(triangles[2].c == glm::dvec3(0, 11, 3));
+  CHECK(triangles[2].glass);
+  CHECK(triangles[2].tint.g == Approx(0.4));
+  CHECK(triangles[3].glass);
+  CHECK(triangles[3].tint.g == Approx(0.75 + 0.25 * 0.5));
 }

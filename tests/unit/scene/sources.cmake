@@ -1,9 +1,10 @@
-# Scene, medium and image files. The executable links tyndall_scene and nlohmann_json, has tests/ among its include
-# folders and TYNDALL_SHARED_DIR defined as a string.
+# Scene, medium and image files. The executable links tyndall_scene, tyndall_scene_generators and nlohmann_json, has
+# tests/ among its include folders and TYNDALL_SHARED_DIR defined as a string.
 set(TYNDALL_UNIT_SCENE_SOURCES
   ${CMAKE_CURRENT_LIST_DIR}/AnimationTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/BrokenFilesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/CameraLightTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/FileIoTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GeometryTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GltfFile.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GltfFile.h
@@ -14,4 +15,5 @@ set(TYNDALL_UNIT_SCENE_SOURCES
   ${CMAKE_CURRENT_LIST_DIR}/NodeTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/OrreryTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SampleFilesTest.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/SmokeTest.cpp)
+  ${CMAKE_CURRENT_LIST_DIR}/SmokeTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/WrittenScenesTest.cpp)

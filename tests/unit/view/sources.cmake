@@ -1,5 +1,6 @@
 # Views, shadow fitting and the geometry under them. The executable links tyndall_scene.
 set(TYNDALL_UNIT_VIEW_SOURCES
+  ${CMAKE_CURRENT_LIST_DIR}/AdviceTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ConvexPolygonTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ProjectionTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ShadowViewsTest.cpp
