@@ -1,3 +1,4 @@
+#include "AllPrograms.h"
 #include "EffectState.h"
 #include "LoadFunctions.h"
 #include "SampleBudget.h"
@@ -93,15 +94,8 @@ Statistics Effect::statistics() {
 Status Effect::compileAll() {
   if (Status s = state_->checkContext(); !s) return s;
   const gl::StateGuard guard(state_->gl);
-  for (const passes::exact::Variant& variant : passes::exact::allVariants())
-    if (!state_->programs.use("passes/exact.frag", passes::exact::definitionsOf(variant))) return state_->shaderError();
-  for (const auto& variants : {passes::epipolar::allVariants(), passes::view::allVariants()})
-    for (const gl::Variant& v : variants)
-      if (!state_->programs.use(v.fragment, v.definitions, v.vertex)) return state_->shaderError();
-  if (!state_->programs.use("passes/composite.frag", {})) return state_->shaderError();
-  for (const char* fragment : {"passes/copyTexels.frag", "passes/viewFixup.frag"})
-    for (const char* vertex : {gl::kFullScreen, "passes/tiles.vert"})
-      if (!state_->programs.use(fragment, {}, vertex)) return state_->shaderError();
+  for (const gl::Variant& v : effectPrograms())
+    if (!state_->programs.use(v.fragment, v.definitions, v.vertex)) return state_->shaderError();
   return {};
 }
 

@@ -2,6 +2,7 @@
 
 #include "LoadFunctions.h"
 #include "PassRecorder.h"
+#include "avsm/Curves.h"
 #include "avsm/Lists.h"
 #include "avsm/Particles.h"
 #include "avsm/StorageGuard.h"
@@ -39,7 +40,7 @@ Status checkConfig(const AvsmConfig& config) {
   if (config.size < 1 || config.size > 4096) return invalid("size", std::to_string(config.size), "must be 1 to 4096");
   if (config.layers < 1 || config.layers > kMaxShadowViews)
     return invalid("layers", std::to_string(config.layers), "must be 1 to 6");
-  if (config.nodes < 4 || config.nodes > 16 || config.nodes % 4 != 0)
+  if (config.nodes < 4 || config.nodes > avsm::kMaxNodes || config.nodes % 4 != 0)
     return invalid("nodes", std::to_string(config.nodes), "must be 4, 8, 12 or 16");
   if (config.reduction < CurveReduction::WholeCurve || config.reduction > CurveReduction::InOrder)
     return invalid("reduction", std::to_string(static_cast<int>(config.reduction)), "must be one of the enumerators");
@@ -122,9 +123,7 @@ struct Avsm::State {
     return std::uint64_t{16} * static_cast<std::uint64_t>(config.size) * static_cast<std::uint64_t>(config.size) *
            static_cast<std::uint64_t>(curveLayersOf(config));
   }
-  gl::Definitions curveDefinitions() const {
-    return {{"TYNDALL_CURVE_NODES", config.nodes}, {"TYNDALL_CURVE_PACKED", config.packed ? 1 : 0}};
-  }
+  gl::Definitions curveDefinitions() const { return avsm::curveDefinitions(config.nodes, config.packed); }
 };
 
 Avsm::Avsm(std::unique_ptr<State> state) : state_(std::move(state)) {}
