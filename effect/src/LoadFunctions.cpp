@@ -2,7 +2,32 @@
 
 #include "gl/Enums.h"
 
+#include <set>
+
 namespace tyndall {
+
+namespace {
+
+std::set<std::string> extensionsOf(const gl::Functions& gl) {
+  gl::Int count = 0;
+  gl.GetIntegerv(gl::NUM_EXTENSIONS, &count);
+  std::set<std::string> names;
+  for (gl::Int i = 0; i < count; ++i)
+    if (const auto* name = gl.GetStringi(gl::EXTENSIONS, static_cast<gl::Uint>(i)))
+      names.insert(reinterpret_cast<const char*>(name));
+  return names;
+}
+
+// What is of a later version than the context's, unless an extension brings it.
+void settleExtensions(gl::Functions& gl) {
+  const std::set<std::string> extensions = extensionsOf(gl);
+  const auto has = [&](int version, const char* extension) {
+    return gl.version >= version || extensions.count(extension) != 0;
+  };
+  if (!has(45, "GL_ARB_clip_control")) gl.ClipControl = nullptr;
+}
+
+} // namespace
 
 Status loadFunctions(gl::Functions& gl, GlLoader loader, int version, const std::string& what) {
   const std::string missing = gl.load(loader);
@@ -20,6 +45,7 @@ Status loadFunctions(gl::Functions& gl, GlLoader loader, int version, const std:
             "the context is \"" + text + "\": " + needed + " core or later is needed" + what};
   if (!missing.empty())
     return {StatusCode::ContextTooOld, "the context is \"" + text + "\" but the loader knows no " + missing};
+  settleExtensions(gl);
   return {};
 }
 
