@@ -25,6 +25,10 @@ void settleExtensions(gl::Functions& gl) {
     return gl.version >= version || extensions.count(extension) != 0;
   };
   if (!has(45, "GL_ARB_clip_control")) gl.ClipControl = nullptr;
+  gl.stencilTexturing = has(43, "GL_ARB_stencil_texturing");
+  gl::Int profile = 0;
+  gl.GetIntegerv(gl::CONTEXT_PROFILE_MASK, &profile);
+  gl.compatibility = (static_cast<gl::Bitfield>(profile) & gl::CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0;
 }
 
 } // namespace

@@ -165,6 +165,8 @@ struct Functions {
   TYNDALL_GL_OPTIONAL(TYNDALL_GL_DECLARE)
 #undef TYNDALL_GL_DECLARE
   int version = 0;               ///< 10 * major + minor of the context
+  bool stencilTexturing = false; ///< a texture may show its stencil in place of its depth
+  bool compatibility = false;    ///< of the compatibility profile
 
   /// Fills the table. Returns the name of the first required function that the loader does not know, empty if all are.
   std::string load(void* (*loader)(const char*));

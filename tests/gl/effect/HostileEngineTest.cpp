@@ -14,6 +14,7 @@ using namespace tyndall;
 namespace {
 
 constexpr int kWidth = 64, kHeight = 48;
+constexpr float kBefore = 0.25F; // in all channels of all targets
 
 struct Mode {
   std::string name;
@@ -53,7 +54,13 @@ public:
     rig_.scene.frame.settings.view = mode.view;
     rig_.addLight(tests::reuse::sun(), 64, true);
     if (!mode.outputs) rig_.scene.frame.output = {};
-    colour_ = rig_.scene.makeColour(GL_RGBA16F, std::vector<float>(4 * kWidth * kHeight, 0.25F));
+    const std::vector<float> values(4 * kWidth * kHeight, kBefore);
+    colour_ = rig_.scene.makeColour(GL_RGBA16F, values);
+    for (const GLuint texture : {rig_.scene.frame.output.inscatter, rig_.scene.frame.output.transmittance}) {
+      if (texture == 0) continue;
+      host::gl().BindTexture(GL_TEXTURE_2D, texture);
+      host::gl().TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kWidth, kHeight, GL_RGBA, GL_FLOAT, values.data());
+    }
   }
 
   // Each picture has an effect of its own, which sees the hostile state from the first.
@@ -123,7 +130,7 @@ const Picture& cleanPicture(const Mode& mode) {
 }
 
 bool isUntouched(const std::vector<float>& picture) {
-  return std::all_of(picture.begin(), picture.end() - 1, [](float value) { return value == 0.25F; });
+  return std::all_of(picture.begin(), picture.end() - 1, [](float value) { return value == kBefore; });
 }
 
 void check(const tests::HostileRow& row, const Mode& mode) {

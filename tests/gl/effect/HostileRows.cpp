@@ -287,6 +287,61 @@ void addBindings(Rows& rows) {
                   }});
 }
 
+// --- what the engine's own textures are set to
+
+void setParameters(GLenum target, GLuint texture, const std::vector<std::pair<GLenum, GLint>>& values) {
+  if (texture == 0) return;
+  gl().BindTexture(target, texture);
+  for (const auto& [name, value] : values)
+    gl().TexParameteri(target, name, value);
+}
+
+void changeSampling(Engine& engine) {
+  const std::vector<std::pair<GLenum, GLint>> values = {{GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR},
+                                                        {GL_TEXTURE_MAG_FILTER, GL_LINEAR},
+                                                        {GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER},
+                                                        {GL_TEXTURE_WRAP_T, GL_MIRRORED_REPEAT},
+                                                        {GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE},
+                                                        {GL_TEXTURE_COMPARE_FUNC, GL_GREATER},
+                                                        {GL_TEXTURE_MIN_LOD, 3},
+                                                        {GL_TEXTURE_MAX_LEVEL, 5}};
+  const Frame& frame = engine.frame;
+  for (const GLuint texture : {frame.colour, frame.depth.texture, frame.output.inscatter, frame.output.transmittance})
+    setParameters(GL_TEXTURE_2D, texture, values);
+  for (const Light& light : frame.lights)
+    for (const GLuint texture : {light.shadow.texture, light.glass.colour, light.glass.depth})
+      setParameters(light.shadow.array ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, texture, values);
+}
+
+void addTextures(Rows& rows) {
+  rows.push_back({"sampling parameters of its textures", changeSampling, Where::Everywhere});
+  for (const auto& [name, source] :
+       {std::pair("zero", GL_ZERO), {"one", GL_ONE}, {"green", GL_GREEN}, {"alpha", GL_ALPHA}}) {
+    const auto red = static_cast<GLint>(source);
+    const std::string rule = ": GL_TEXTURE_SWIZZLE_R must be GL_RED";
+    rows.push_back({std::string("depth that gives ") + name + " as red",
+                    [red](Engine& e) {
+                      setParameters(GL_TEXTURE_2D, e.frame.depth.texture, {{GL_TEXTURE_SWIZZLE_R, red}});
+                    },
+                    Where::Everywhere, 33, rule});
+    rows.push_back(
+        {std::string("a shadow map that gives ") + name + " as red",
+         [red](Engine& e) {
+           const ShadowMap& map = e.frame.lights[0].shadow;
+           setParameters(map.array ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, map.texture, {{GL_TEXTURE_SWIZZLE_R, red}});
+         },
+         Where::Everywhere, 33, rule});
+  }
+  rows.push_back({"depth whose green, blue and alpha are swizzled",
+                  [](Engine& e) {
+                    setParameters(GL_TEXTURE_2D, e.frame.depth.texture,
+                                  {{GL_TEXTURE_SWIZZLE_G, GL_RED},
+                                   {GL_TEXTURE_SWIZZLE_B, GL_RED},
+                                   {GL_TEXTURE_SWIZZLE_A, GL_ZERO}});
+                  },
+                  Where::Everywhere});
+}
+
 // --- what is under way
 
 void beginFeedback(Engine& engine, bool pause) {
@@ -359,6 +414,7 @@ const std::vector<HostileRow>& hostileRows() {
     addFragmentTests(rows);
     addBlending(rows);
     addBindings(rows);
+    addTextures(rows);
     addUnderWay(rows);
     rows.push_back({"much at once", [](Engine& e) { e.poison = std::make_unique<Poison>(); }, Where::Everywhere});
     return rows;
