@@ -1,5 +1,6 @@
 #include "LoadFunctions.h"
 
+#include "ContextWatch.h"
 #include "gl/Enums.h"
 
 #include <set>
@@ -26,6 +27,8 @@ void settleExtensions(gl::Functions& gl) {
   };
   if (!has(45, "GL_ARB_clip_control")) gl.ClipControl = nullptr;
   gl.stencilTexturing = has(43, "GL_ARB_stencil_texturing");
+  if (!has(45, "GL_KHR_robustness"))
+    gl.GetGraphicsResetStatus = has(45, "GL_ARB_robustness") ? gl.GetGraphicsResetStatusARB : nullptr;
   gl::Int profile = 0;
   gl.GetIntegerv(gl::CONTEXT_PROFILE_MASK, &profile);
   gl.compatibility = (static_cast<gl::Bitfield>(profile) & gl::CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0;
@@ -35,8 +38,8 @@ void settleExtensions(gl::Functions& gl) {
 
 Status loadFunctions(gl::Functions& gl, GlLoader loader, int version, const std::string& what) {
   const std::string missing = gl.load(loader);
-  if (!gl.GetString || !gl.GetString(gl::VERSION))
-    return {StatusCode::NoContext, "no GL context is current on this thread"};
+  if (!gl.GetString) return {StatusCode::NoContext, "no GL context is current on this thread"};
+  if (!gl.GetString(gl::VERSION)) return ContextWatch(gl).check();
   const std::string text = reinterpret_cast<const char*>(gl.GetString(gl::VERSION));
   if (!gl.GetIntegerv) return {StatusCode::ContextTooOld, "the loader knows no " + missing};
   gl::Int major = 0, minor = 0;
@@ -50,7 +53,7 @@ Status loadFunctions(gl::Functions& gl, GlLoader loader, int version, const std:
   if (!missing.empty())
     return {StatusCode::ContextTooOld, "the context is \"" + text + "\" but the loader knows no " + missing};
   settleExtensions(gl);
-  return {};
+  return ContextWatch(gl).check();
 }
 
 } // namespace tyndall

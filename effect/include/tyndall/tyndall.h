@@ -48,6 +48,7 @@ enum class StatusCode {
   OutOfMemory,   ///< GL could not allocate a texture or buffer
   InvalidConfig, ///< a field of Config breaks its rule
   InvalidFrame,  ///< a field of Frame breaks its rule
+  ContextLost,   ///< the GPU was reset: what GL held is gone; a new context is needed, and all objects anew
 };
 
 /// The outcome of a call. The message is one line that names field, value and rule; for ShaderError the log follows.

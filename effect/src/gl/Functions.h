@@ -156,6 +156,8 @@ using Sync = void*;
   X(Enum, ClientWaitSync, (Sync sync, Bitfield flags, Uint64 nanoseconds), None)                                       \
   X(void, DeleteSync, (Sync sync), None)                                                                               \
   X(void, ClipControl, (Enum origin, Enum depth), ClipControl)                                                         \
+  X(Enum, GetGraphicsResetStatus, (), None)                                                                            \
+  X(Enum, GetGraphicsResetStatusARB, (), None)                                                                         \
   X(void, PushDebugGroup, (Enum source, Uint id, Sizei length, const Char* message), None)                             \
   X(void, PopDebugGroup, (), None)
 
