@@ -2,7 +2,9 @@
 #include "gl/Enums.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
+#include <utility>
 
 namespace tyndall {
 
@@ -10,7 +12,7 @@ namespace {
 
 using namespace gl; // GL's enumerants
 
-enum class Use { Colour, Depth, Tint, Curves };
+enum class Use { Colour, Output, Depth, Tint, Curves };
 
 struct Info {
   Int width = 0;
@@ -86,7 +88,7 @@ float largestValue(Int format) {
 
 // Binds a texture to unit 0 and reads what it is; a texture of another target leaves the old binding, and one GL error,
 // which is taken back.
-Status inspect(const Functions& gl, const std::string& field, Uint name, Enum target, Use use, Info& info) {
+Status inspect(const Functions& gl, const std::string& field, Uint name, Enum target, Info& info) {
   if (!gl.IsTexture(name))
     return invalid(field, name, "not the name of a texture in this context (deleted, or never bound?)");
   gl.ActiveTexture(TEXTURE0);
@@ -112,20 +114,54 @@ Status inspect(const Functions& gl, const std::string& field, Uint name, Enum ta
     gl.GetTexParameteriv(target, TEXTURE_BASE_LEVEL, &base);
     if (base != 0) return invalid(field, name, "GL_TEXTURE_BASE_LEVEL must be 0");
   }
-  if (use == Use::Depth && !isDepthFormat(info.format)) return invalid(field, name, "must have a depth format or R32F");
-  if (use == Use::Colour && !isFloatColour(info.format))
-    return invalid(field, name, "must have a float colour format (RGBA16F, RGBA32F, R11F_G11F_B10F, RGB16F, RGB32F)");
-  if (use == Use::Tint && !isTint(info.format))
-    return invalid(field, name, "must have an RGB or RGBA format of 8 bits or floats");
-  if (use == Use::Curves && static_cast<Enum>(info.format) != RGBA32UI)
-    return invalid(field, name, "must be what Avsm::curves() gave: RGBA32UI");
-  if (use == Use::Depth && gl.version >= 43) {
-    Int mode = DEPTH_COMPONENT;
-    gl.GetTexParameteriv(target, DEPTH_STENCIL_TEXTURE_MODE, &mode);
-    if (static_cast<Enum>(mode) != DEPTH_COMPONENT)
-      return invalid(field, name, "GL_DEPTH_STENCIL_TEXTURE_MODE must be GL_DEPTH_COMPONENT");
-  }
   return {};
+}
+
+Status checkFormat(const std::string& field, Uint name, Use use, Int format) {
+  if (use == Use::Depth && !isDepthFormat(format)) return invalid(field, name, "must have a depth format or R32F");
+  if ((use == Use::Colour || use == Use::Output) && !isFloatColour(format))
+    return invalid(field, name, "must have a float colour format (RGBA16F, RGBA32F, R11F_G11F_B10F, RGB16F, RGB32F)");
+  if (use == Use::Tint && !isTint(format))
+    return invalid(field, name, "must have an RGB or RGBA format of 8 bits or floats");
+  if (use == Use::Curves && static_cast<Enum>(format) != RGBA32UI)
+    return invalid(field, name, "must be what Avsm::curves() gave: RGBA32UI");
+  return {};
+}
+
+// How many channels of a texture are read as they are stored. No sampler can undo what the texture's own parameters do
+// to them; a tint may come in any order.
+std::size_t channelsRead(Use use) {
+  return use == Use::Depth ? 1 : use == Use::Output ? 3 : use == Use::Curves ? 4 : 0;
+}
+
+// The texture is bound.
+Status checkChannels(const Functions& gl, const std::string& field, Uint name, Enum target, Use use) {
+  constexpr std::array<std::pair<Enum, const char*>, 4> kOwn = {{{RED, "R must be GL_RED"},
+                                                                 {GREEN, "G must be GL_GREEN"},
+                                                                 {BLUE, "B must be GL_BLUE"},
+                                                                 {ALPHA, "A must be GL_ALPHA"}}};
+  for (std::size_t i = 0; i < channelsRead(use); ++i) {
+    Int source = 0;
+    gl.GetTexParameteriv(target, TEXTURE_SWIZZLE_R + static_cast<Enum>(i), &source);
+    if (static_cast<Enum>(source) != kOwn[i].first)
+      return invalid(field, name, std::string("GL_TEXTURE_SWIZZLE_") + kOwn[i].second);
+  }
+  if (use != Use::Depth) return {};
+  Int mode = DEPTH_COMPONENT;
+  if (gl.stencilTexturing) gl.GetTexParameteriv(target, DEPTH_STENCIL_TEXTURE_MODE, &mode);
+  if (static_cast<Enum>(mode) != DEPTH_COMPONENT)
+    return invalid(field, name, "GL_DEPTH_STENCIL_TEXTURE_MODE must be GL_DEPTH_COMPONENT");
+  mode = RED;
+  if (gl.compatibility) gl.GetTexParameteriv(target, DEPTH_TEXTURE_MODE, &mode);
+  if (static_cast<Enum>(mode) == ALPHA) return invalid(field, name, "GL_DEPTH_TEXTURE_MODE must not be GL_ALPHA");
+  return {};
+}
+
+// All that is asked of one texture but its size.
+Status check(const Functions& gl, const std::string& field, Uint name, Enum target, Use use, Info& info) {
+  if (Status s = inspect(gl, field, name, target, info); !s) return s;
+  if (Status s = checkFormat(field, name, use, info.format); !s) return s;
+  return checkChannels(gl, field, name, target, use);
 }
 
 Status sized(const std::string& field, Uint name, const Info& info, int width, int height) {
@@ -135,10 +171,11 @@ Status sized(const std::string& field, Uint name, const Info& info, int width, i
                      std::to_string(width) + " x " + std::to_string(height));
 }
 
-Status checkTarget(const Functions& gl, const Frame& frame, const std::string& field, Uint name, float& largest) {
+Status checkTarget(const Functions& gl, const Frame& frame, const std::string& field, Uint name, Use use,
+                   float& largest) {
   if (name == 0) return {};
   Info info;
-  if (Status s = inspect(gl, field, name, TEXTURE_2D, Use::Colour, info); !s) return s;
+  if (Status s = check(gl, field, name, TEXTURE_2D, use, info); !s) return s;
   largest = std::min(largest, largestValue(info.format));
   return sized(field, name, info, frame.width, frame.height);
 }
@@ -159,7 +196,7 @@ Status checkDistinct(const Frame& frame) {
 Status checkCurves(const Functions& gl, const std::string& field, const Light& light, int& size) {
   Info info;
   const Uint name = light.curves.texture;
-  if (Status s = inspect(gl, field, name, TEXTURE_2D_ARRAY, Use::Curves, info); !s) return s;
+  if (Status s = check(gl, field, name, TEXTURE_2D_ARRAY, Use::Curves, info); !s) return s;
   const auto views = static_cast<int>(light.shadow.views.size());
   const int layers = views * light.curves.nodes / (light.curves.packed ? 4 : 2);
   if (info.width != info.height) return invalid(field, name, "must be as high as it is wide");
@@ -175,7 +212,7 @@ Status checkShadow(const Functions& gl, const std::string& field, const Light& l
   if (light.shadow.texture == 0) return {};
   const Enum target = light.shadow.array ? TEXTURE_2D_ARRAY : TEXTURE_2D;
   Info map;
-  if (Status s = inspect(gl, field + "shadow.texture", light.shadow.texture, target, Use::Depth, map); !s) return s;
+  if (Status s = check(gl, field + "shadow.texture", light.shadow.texture, target, Use::Depth, map); !s) return s;
   for (std::size_t i = 0; i < light.shadow.views.size(); ++i)
     if (light.shadow.array && light.shadow.views[i].layer >= map.layers)
       return {StatusCode::InvalidFrame, "Frame::" + field + "shadow.views[" + std::to_string(i) + "].layer is " +
@@ -186,9 +223,9 @@ Status checkShadow(const Functions& gl, const std::string& field, const Light& l
     if (Status s = checkCurves(gl, field + "curves.texture", light, shadow.curvesSize); !s) return s;
   if (light.glass.colour == 0) return {};
   Info colour, depth;
-  if (Status s = inspect(gl, field + "glass.colour", light.glass.colour, target, Use::Tint, colour); !s) return s;
+  if (Status s = check(gl, field + "glass.colour", light.glass.colour, target, Use::Tint, colour); !s) return s;
   if (Status s = sized(field + "glass.colour", light.glass.colour, colour, map.width, map.height); !s) return s;
-  if (Status s = inspect(gl, field + "glass.depth", light.glass.depth, target, Use::Depth, depth); !s) return s;
+  if (Status s = check(gl, field + "glass.depth", light.glass.depth, target, Use::Depth, depth); !s) return s;
   if (Status s = sized(field + "glass.depth", light.glass.depth, depth, map.width, map.height); !s) return s;
   if (colour.layers < map.layers)
     return invalid(field + "glass.colour", light.glass.colour, "has fewer layers than the shadow map");
@@ -203,12 +240,15 @@ Status checkTextures(const Functions& gl, const Frame& frame, FrameTextures& tex
   textures.colourMax = textures.outputMax = kLargestFloat;
   float most = kLargestFloat; // a transmittance is at most 1
   if (Status s = checkDistinct(frame); !s) return s;
-  if (Status s = checkTarget(gl, frame, "colour", frame.colour, textures.colourMax); !s) return s;
-  if (Status s = checkTarget(gl, frame, "output.inscatter", frame.output.inscatter, textures.outputMax); !s) return s;
-  if (Status s = checkTarget(gl, frame, "output.transmittance", frame.output.transmittance, most); !s) return s;
+  if (Status s = checkTarget(gl, frame, "colour", frame.colour, Use::Colour, textures.colourMax); !s) return s;
+  if (Status s = checkTarget(gl, frame, "output.inscatter", frame.output.inscatter, Use::Output, textures.outputMax);
+      !s)
+    return s;
+  if (Status s = checkTarget(gl, frame, "output.transmittance", frame.output.transmittance, Use::Output, most); !s)
+    return s;
   Info depth;
   const Enum target = frame.depth.multisampled ? TEXTURE_2D_MULTISAMPLE : TEXTURE_2D;
-  if (Status s = inspect(gl, "depth.texture", frame.depth.texture, target, Use::Depth, depth); !s) return s;
+  if (Status s = check(gl, "depth.texture", frame.depth.texture, target, Use::Depth, depth); !s) return s;
   if (Status s = sized("depth.texture", frame.depth.texture, depth, frame.width, frame.height); !s) return s;
   textures.depthSamples = frame.depth.multisampled ? std::clamp(depth.samples, 1, 16) : 1;
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {

@@ -1,3 +1,4 @@
+#include "AllPrograms.h"
 #include "EffectState.h"
 #include "LoadFunctions.h"
 #include "SampleBudget.h"
@@ -49,6 +50,7 @@ CreateResult Effect::create(const Config& config) {
   auto state = std::make_unique<State>(config);
   if (Status s = loadFunctions(state->gl, config.loader, 33, {}); !s) return {nullptr, s};
   state->createObjects();
+  if (Status s = state->watch.finish({}); !s) return {nullptr, s};
   return {std::unique_ptr<Effect>(new Effect(std::move(state))), {}};
 }
 
@@ -62,25 +64,8 @@ bool hasMeshes(const Frame& frame) {
 } // namespace
 
 Status Effect::render(const Frame& frame) {
-  State& state = *state_;
-  if (Status s = state.checkContext(); !s) return s;
-  if (Status s = checkValues(frame); !s) return s;
-  const gl::StateGuard guard(state.gl);
-  FrameTextures textures;
-  if (Status s = checkTextures(state.gl, frame, textures); !s) return s;
-  Frame boxed;
-  if (hasMeshes(frame)) boxed = frame;
-  if (frame.reuse.changes != Changes::Unknown) {
-    ViewHistory& view = state.histories.of(frame.reuse.view);
-    if (frame.reuse.changes == Changes::Detect || !view.isFollowedBy(frame)) view.lastShapes.clear();
-    if (hasMeshes(frame))
-      if (Status s = state.objectBoxes.makeBoxes(boxed, view.lastShapes); !s) return s;
-  }
-  state.recorder.beginFrame();
-  state.redrawnShare = 1;
-  Status status = state.renderChecked(hasMeshes(frame) ? boxed : frame, textures);
-  state.targets.endFrame();
-  return status;
+  if (Status s = state_->checkContext("Effect::render"); !s) return s;
+  return state_->watch.finish(state_->render(frame));
 }
 
 Statistics Effect::statistics() {
@@ -94,19 +79,8 @@ Statistics Effect::statistics() {
 }
 
 Status Effect::compileAll() {
-  if (Status s = state_->checkContext(); !s) return s;
-  const gl::StateGuard guard(state_->gl);
-  for (const passes::exact::Variant& variant : passes::exact::allVariants())
-    if (!state_->programs.use("passes/exact.frag", passes::exact::definitionsOf(variant))) return state_->shaderError();
-  for (const auto& variants : {passes::epipolar::allVariants(), passes::view::allVariants()})
-    for (const gl::Variant& v : variants)
-      if (!state_->programs.use(v.fragment, v.definitions, v.vertex)) return state_->shaderError();
-  if (!state_->programs.use("passes/composite.frag", {})) return state_->shaderError();
-  if (!state_->programs.use("passes/copyTexels.frag", {{"CAPPED", 1}})) return state_->shaderError();
-  for (const char* fragment : {"passes/copyTexels.frag", "passes/viewFixup.frag"})
-    for (const char* vertex : {gl::kFullScreen, "passes/tiles.vert"})
-      if (!state_->programs.use(fragment, {}, vertex)) return state_->shaderError();
-  return {};
+  if (Status s = state_->checkContext("Effect::compileAll"); !s) return s;
+  return state_->watch.finish(state_->compileAll());
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -130,17 +104,41 @@ void Effect::State::createObjects() {
     buffer = gl::Buffer(gl);
 }
 
-Status Effect::State::checkContext() const {
-  if (!gl.GetString(gl::VERSION)) return {StatusCode::NoContext, "no GL context is current on this thread"};
+Status Effect::State::checkContext(const char* function) {
+  if (Status s = watch.check(); !s) return s;
   gl::Int marker = 0;
   if (gl.IsSampler(nearestSampler.name()))
     gl.GetSamplerParameteriv(nearestSampler.name(), gl::TEXTURE_MIN_LOD, &marker);
   if (!gl.IsVertexArray(vertexArray.name()) || marker != id)
     return {StatusCode::NoContext, "another GL context is current than the one the effect was created in"};
-  gl::Int feedback = 0;
-  if (gl.version >= 40) gl.GetIntegerv(gl::TRANSFORM_FEEDBACK_ACTIVE, &feedback);
-  if (feedback) return {StatusCode::InvalidFrame, "transform feedback is active: end it before Effect::render"};
+  return checkFeedback(gl, function);
+}
+
+Status Effect::State::compileAll() {
+  const gl::StateGuard guard(gl);
+  for (const gl::Variant& v : effectPrograms())
+    if (!programs.use(v.fragment, v.definitions, v.vertex)) return shaderError();
   return {};
+}
+
+Status Effect::State::render(const Frame& frame) {
+  if (Status s = checkValues(frame); !s) return s;
+  const gl::StateGuard guard(gl);
+  FrameTextures textures;
+  if (Status s = checkTextures(gl, frame, textures); !s) return s;
+  Frame boxed;
+  if (hasMeshes(frame)) boxed = frame;
+  if (frame.reuse.changes != Changes::Unknown) {
+    ViewHistory& view = histories.of(frame.reuse.view);
+    if (frame.reuse.changes == Changes::Detect || !view.isFollowedBy(frame)) view.lastShapes.clear();
+    if (hasMeshes(frame))
+      if (Status s = objectBoxes.makeBoxes(boxed, view.lastShapes); !s) return s;
+  }
+  recorder.beginFrame();
+  redrawnShare = 1;
+  Status status = renderChecked(hasMeshes(frame) ? boxed : frame, textures);
+  targets.endFrame();
+  return status;
 }
 
 Status Effect::State::renderChecked(const Frame& frame, const FrameTextures& textures) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "CheckFrame.h"
+#include "ContextWatch.h"
 #include "History.h"
 #include "ObjectBoxes.h"
 #include "PassRecorder.h"
@@ -18,9 +19,10 @@ namespace tyndall {
 
 struct Effect::State {
   explicit State(const Config& config)
-      : programs(gl), targets(gl), recorder(gl, config.timing), histories(gl), objectBoxes(gl) {}
+      : watch(gl), programs(gl), targets(gl), recorder(gl, config.timing), histories(gl), objectBoxes(gl) {}
 
   gl::Functions gl;
+  ContextWatch watch;
   gl::ProgramCache programs;
   Targets targets;
   PassRecorder recorder;
@@ -54,7 +56,9 @@ struct Effect::State {
   };
 
   void createObjects();
-  Status checkContext() const;
+  Status checkContext(const char* function);
+  Status compileAll();
+  Status render(const Frame& frame);
   Status renderChecked(const Frame& frame, const FrameTextures& textures);
   Status chooseDestination(const Frame& frame, const FrameTextures& textures, bool changesColour,
                            Destination& destination);

@@ -1,13 +1,45 @@
 #include "LoadFunctions.h"
 
+#include "ContextWatch.h"
 #include "gl/Enums.h"
+
+#include <set>
 
 namespace tyndall {
 
+namespace {
+
+std::set<std::string> extensionsOf(const gl::Functions& gl) {
+  gl::Int count = 0;
+  gl.GetIntegerv(gl::NUM_EXTENSIONS, &count);
+  std::set<std::string> names;
+  for (gl::Int i = 0; i < count; ++i)
+    if (const auto* name = gl.GetStringi(gl::EXTENSIONS, static_cast<gl::Uint>(i)))
+      names.insert(reinterpret_cast<const char*>(name));
+  return names;
+}
+
+// What is of a later version than the context's, unless an extension brings it.
+void settleExtensions(gl::Functions& gl) {
+  const std::set<std::string> extensions = extensionsOf(gl);
+  const auto has = [&](int version, const char* extension) {
+    return gl.version >= version || extensions.count(extension) != 0;
+  };
+  if (!has(45, "GL_ARB_clip_control")) gl.ClipControl = nullptr;
+  gl.stencilTexturing = has(43, "GL_ARB_stencil_texturing");
+  if (!has(45, "GL_KHR_robustness"))
+    gl.GetGraphicsResetStatus = has(45, "GL_ARB_robustness") ? gl.GetGraphicsResetStatusARB : nullptr;
+  gl::Int profile = 0;
+  gl.GetIntegerv(gl::CONTEXT_PROFILE_MASK, &profile);
+  gl.compatibility = (static_cast<gl::Bitfield>(profile) & gl::CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0;
+}
+
+} // namespace
+
 Status loadFunctions(gl::Functions& gl, GlLoader loader, int version, const std::string& what) {
   const std::string missing = gl.load(loader);
-  if (!gl.GetString || !gl.GetString(gl::VERSION))
-    return {StatusCode::NoContext, "no GL context is current on this thread"};
+  if (!gl.GetString) return {StatusCode::NoContext, "no GL context is current on this thread"};
+  if (!gl.GetString(gl::VERSION)) return ContextWatch(gl).check();
   const std::string text = reinterpret_cast<const char*>(gl.GetString(gl::VERSION));
   if (!gl.GetIntegerv) return {StatusCode::ContextTooOld, "the loader knows no " + missing};
   gl::Int major = 0, minor = 0;
@@ -20,7 +52,8 @@ Status loadFunctions(gl::Functions& gl, GlLoader loader, int version, const std:
             "the context is \"" + text + "\": " + needed + " core or later is needed" + what};
   if (!missing.empty())
     return {StatusCode::ContextTooOld, "the context is \"" + text + "\" but the loader knows no " + missing};
-  return {};
+  settleExtensions(gl);
+  return ContextWatch(gl).check();
 }
 
 } // namespace tyndall

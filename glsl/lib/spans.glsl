@@ -37,9 +37,9 @@ Light sharedLight(Airlight light, ViewSegment segment, float s0, float s1, Visib
   // Visibility and share as lines a + b t on [-1, 1]; the mean of t squared is a third.
   float scale = (segment.share.y - segment.share.x) / max(segment.s1 - segment.s0, 1e-30);
   float middle = segment.share.x + scale * (0.5 * (s0 + s1) - segment.s0), slope = 0.5 * scale * (s1 - s0);
-  Visibility shared = mean * middle + moment * slope;
+  Visibility inShare = mean * middle + moment * slope;
   moment = moment * middle + mean * (slope / 3.0);
-  mean = shared;
+  mean = inShare;
 #endif
   return weightedLight(light, s0, s1, mean, moment);
 }

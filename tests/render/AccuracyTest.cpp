@@ -17,17 +17,21 @@ TEST_CASE("exact equals map-exact on every sample scene at 4096 x 4096") {
   }
 }
 
+// A texel of a quarter the width brings nearly a quarter of the error where a few pixels, on whose edge of a leaf the
+// rasteriser and the ray tracer disagree, do not count.
 TEST_CASE("the error of exact against scene-exact falls as the map grows") {
   for (const std::string& scene : tests::sampleScenes()) {
     reference::Image truth;
-    double last = reference::kInfinity;
+    std::vector<reference::ErrorMetrics> errors;
     for (const int size : {256, 1024, 4096}) {
       const tests::SceneAnswers answers = tests::renderScene(tests::sampleOptions(scene, 160, 90, size));
       if (truth.rgb.empty()) truth = reference::SceneExact(answers.triangles).render(answers.view).inscatter;
-      const reference::ErrorMetrics error = reference::compare(answers.exact.inscatter, truth);
+      errors.push_back(reference::compare(answers.exact.inscatter, truth));
+      if (errors.size() == 1) continue;
+      const reference::ErrorMetrics &error = errors.back(), &last = errors[errors.size() - 2];
       INFO(scene << " at " << size << ": " << error.text());
-      CHECK(error.rRmse < last);
-      last = error.rRmse;
+      CHECK(error.rRmse < last.rRmse);
+      CHECK(error.p99 <= 0.5 * last.p99);
     }
   }
 }

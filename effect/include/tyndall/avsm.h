@@ -13,8 +13,10 @@
 //     avsm->bindCurves(0);                  // and, or instead, the engine draws: fragments call tyndallInsert() (glsl
 //     avsmInsert) avsm->resolve(); frame.lights[0].curves = avsm->curves();
 //
-// The map has the light's shadow views, at a size of its own. Depth in it is linear along the view, 0 at its near and 1
-// at its far plane. All functions need the GL context current that create() saw: OpenGL 4.3 core or later.
+// The map has the light's shadow views, at a size of its own; engines that draw into it with glClipControl's
+// GL_UPPER_LEFT give its views matrices whose row y is negated, as for a shadow map. Depth in it is linear along the
+// view, 0 at its near and 1 at its far plane. All functions need the GL context current that create() saw: OpenGL 4.3
+// core or later.
 #pragma once
 
 #include <tyndall/tyndall.h>

@@ -7,9 +7,10 @@
 //     s)
 //
 // Conventions. World units are the engine's own: nothing depends on their scale. Matrices are column-major, column
-// vectors, destinationFromSource. Colours are linear RGB. Angles are radians. Texture row 0 is the bottom row, as in
-// GL. No function throws. All functions of an Effect, its destructor too, need the GL context current that create()
-// saw.
+// vectors, destinationFromSource. Colours are linear RGB. Angles are radians. Texture row 0 is the bottom row, y = -1
+// in clip space, whatever glClipControl says while the effect runs: maps that were drawn with GL_UPPER_LEFT come with
+// matrices whose row y is negated. No function throws. All functions of an Effect, its destructor too, need the GL
+// context current that create() saw.
 #pragma once
 
 #include <array>
@@ -47,6 +48,7 @@ enum class StatusCode {
   OutOfMemory,   ///< GL could not allocate a texture or buffer
   InvalidConfig, ///< a field of Config breaks its rule
   InvalidFrame,  ///< a field of Frame breaks its rule
+  ContextLost,   ///< the GPU was reset: what GL held is gone; a new context is needed, and all objects anew
 };
 
 /// The outcome of a call. The message is one line that names field, value and rule; for ShaderError the log follows.

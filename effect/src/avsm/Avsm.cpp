@@ -1,7 +1,9 @@
 #include "tyndall/avsm.h"
 
+#include "ContextWatch.h"
 #include "LoadFunctions.h"
 #include "PassRecorder.h"
+#include "avsm/Curves.h"
 #include "avsm/Lists.h"
 #include "avsm/Particles.h"
 #include "avsm/StorageGuard.h"
@@ -39,7 +41,7 @@ Status checkConfig(const AvsmConfig& config) {
   if (config.size < 1 || config.size > 4096) return invalid("size", std::to_string(config.size), "must be 1 to 4096");
   if (config.layers < 1 || config.layers > kMaxShadowViews)
     return invalid("layers", std::to_string(config.layers), "must be 1 to 6");
-  if (config.nodes < 4 || config.nodes > 16 || config.nodes % 4 != 0)
+  if (config.nodes < 4 || config.nodes > avsm::kMaxNodes || config.nodes % 4 != 0)
     return invalid("nodes", std::to_string(config.nodes), "must be 4, 8, 12 or 16");
   if (config.reduction < CurveReduction::WholeCurve || config.reduction > CurveReduction::InOrder)
     return invalid("reduction", std::to_string(static_cast<int>(config.reduction)), "must be one of the enumerators");
@@ -94,10 +96,11 @@ constexpr gl::Bitfield kBarriers = gl::SHADER_STORAGE_BARRIER_BIT | gl::TEXTURE_
 } // namespace
 
 struct Avsm::State {
-  explicit State(const AvsmConfig& c) : config(c), programs(gl), recorder(gl, c.timing) {}
+  explicit State(const AvsmConfig& c) : config(c), watch(gl), programs(gl), recorder(gl, c.timing) {}
 
   AvsmConfig config;
   gl::Functions gl;
+  ContextWatch watch;
   gl::ProgramCache programs;
   PassRecorder recorder;
   std::unique_ptr<avsm::Lists> lists;
@@ -110,6 +113,12 @@ struct Avsm::State {
   bool mayBeEmpty = true; // the newest frame that is known was, or none is known
   bool holds = false;     // the curves may hold anything
 
+  Status checkContext(const char* function);
+  Status begin(std::uint32_t firstBinding);
+  Status resolve();
+  Status beginStreaming();
+  Status drawParticles(const Light& light, const AvsmParticles& particles);
+  Status bindCurves(int layer);
   Status makeCurves();
   Status makeObjects();
   Status checkStreaming(const char* function) const;
@@ -122,9 +131,7 @@ struct Avsm::State {
     return std::uint64_t{16} * static_cast<std::uint64_t>(config.size) * static_cast<std::uint64_t>(config.size) *
            static_cast<std::uint64_t>(curveLayersOf(config));
   }
-  gl::Definitions curveDefinitions() const {
-    return {{"TYNDALL_CURVE_NODES", config.nodes}, {"TYNDALL_CURVE_PACKED", config.packed ? 1 : 0}};
-  }
+  gl::Definitions curveDefinitions() const { return avsm::curveDefinitions(config.nodes, config.packed); }
 };
 
 Avsm::Avsm(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -139,102 +146,33 @@ AvsmResult Avsm::create(const AvsmConfig& config) {
   if (const std::string function = missingFunction(gl); !function.empty())
     return {nullptr, {StatusCode::ContextTooOld, "the loader knows no " + function}};
   if (Status s = checkLimits(gl, config); !s) return {nullptr, s};
-  if (Status s = state->makeObjects(); !s) return {nullptr, s};
+  if (Status s = state->watch.finish(state->makeObjects()); !s) return {nullptr, s};
   return {std::unique_ptr<Avsm>(new Avsm(std::move(state))), {}};
 }
 
 Status Avsm::begin(std::uint32_t firstBinding) {
-  State& state = *state_;
-  if (!state.gl.GetString(gl::VERSION)) return {StatusCode::NoContext, "no GL context is current on this thread"};
-  gl::Int bindings = 0;
-  state.gl.GetIntegerv(gl::MAX_SHADER_STORAGE_BUFFER_BINDINGS, &bindings);
-  if (bindings < 2 || firstBinding > static_cast<std::uint32_t>(bindings) - 2)
-    return {StatusCode::InvalidConfig, "firstBinding is " + std::to_string(firstBinding) +
-                                           ": this and the next must be below this context's " +
-                                           std::to_string(bindings) + " storage buffer bindings"};
-  const avsm::BufferGuard guard(state.gl);
-  state.began = State::Began::Nothing;
-  state.gl.MemoryBarrier(gl::BUFFER_UPDATE_BARRIER_BIT); // shaders wrote what is emptied
-  if (state.lists->receive()) state.mayBeEmpty = state.lists->known().firsts == 0;
-  if (Status s = state.lists->empty(); !s) return s;
-  state.lists->bind(firstBinding, false);
-  state.began = State::Began::Capture;
-  return {};
+  if (Status s = state_->watch.check(); !s) return s;
+  return state_->watch.finish(state_->begin(firstBinding));
 }
 
 Status Avsm::resolve() {
-  State& state = *state_;
-  if (!state.gl.GetString(gl::VERSION)) return {StatusCode::NoContext, "no GL context is current on this thread"};
-  if (state.began == State::Began::Nothing)
-    return {StatusCode::InvalidFrame, "Avsm::resolve needs a begin() or beginStreaming() before it"};
-  state.streamed = state.began == State::Began::Streaming;
-  state.began = State::Began::Nothing;
-  ++state.version;
-  if (state.streamed) {
-    state.gl.MemoryBarrier(kBarriers);
-    return {};
-  }
-  const gl::StateGuard guard(state.gl);
-  const avsm::StorageGuard storageGuard(state.gl);
-  state.recorder.beginFrame();
-  state.gl.MemoryBarrier(gl::SHADER_STORAGE_BARRIER_BIT | gl::BUFFER_UPDATE_BARRIER_BIT);
-  state.lists->send();
-  // Scenes without smoke pay a wait instead of passes; the others do not wait.
-  if (state.mayBeEmpty) state.mayBeEmpty = state.lists->wait().firsts == 0;
-  state.holds = !state.mayBeEmpty;
-  if (!state.holds) {
-    state.recorder.skip("curves", "no segment was captured");
-    return {};
-  }
-  Status status = state.makeCurves();
-  state.holds = static_cast<bool>(status);
-  return status;
+  if (Status s = state_->checkContext("Avsm::resolve"); !s) return s;
+  return state_->watch.finish(state_->resolve());
 }
 
 Status Avsm::beginStreaming() {
-  State& state = *state_;
-  if (!state.gl.GetString(gl::VERSION)) return {StatusCode::NoContext, "no GL context is current on this thread"};
-  const gl::StateGuard guard(state.gl);
-  const avsm::StorageGuard storageGuard(state.gl);
-  state.began = State::Began::Nothing;
-  state.recorder.beginFrame();
-  state.gl.BindImageTexture(0, state.curves.name(), 0, 1, 0, gl::WRITE_ONLY, gl::RGBA32UI);
-  Status status = state.run("empty", "passes/avsmEmpty.comp", state.curveDefinitions());
-  state.holds = static_cast<bool>(status);
-  if (status) state.began = State::Began::Streaming;
-  return status;
+  if (Status s = state_->checkContext("Avsm::beginStreaming"); !s) return s;
+  return state_->watch.finish(state_->beginStreaming());
 }
 
 Status Avsm::drawParticles(const Light& light, const AvsmParticles& particles) {
-  State& state = *state_;
-  if (Status s = state.checkStreaming("drawParticles"); !s) return s;
-  const gl::StateGuard guard(state.gl);
-  const avsm::StorageGuard storageGuard(state.gl);
-  if (Status s = avsm::checkParticles(state.gl, light, particles, state.config.layers); !s) return s;
-  const avsm::ParticlesBlock block = avsm::particlesBlock(light, particles.origin, state.config.size);
-  state.gl.BindBufferBase(gl::UNIFORM_BUFFER, 0, state.particlesBlock.name());
-  state.gl.BufferData(gl::UNIFORM_BUFFER, sizeof block, block.data(), gl::STREAM_DRAW);
-  state.gl.BindImageTexture(0, state.curves.name(), 0, 1, 0, gl::READ_WRITE, gl::RGBA32UI);
-  state.gl.MemoryBarrier(kBarriers);
-  return state.insertParticles(particles, static_cast<int>(light.shadow.views.size()));
+  if (Status s = state_->checkContext("Avsm::drawParticles"); !s) return s;
+  return state_->watch.finish(state_->drawParticles(light, particles));
 }
 
 Status Avsm::bindCurves(int layer) {
-  State& state = *state_;
-  if (Status s = state.checkStreaming("bindCurves"); !s) return s;
-  if (layer < 0 || layer >= state.config.layers)
-    return {StatusCode::InvalidFrame,
-            "layer is " + std::to_string(layer) + ": the map has " + std::to_string(state.config.layers) + " layers"};
-  if (!state.framebuffer) state.framebuffer = gl::Framebuffer(state.gl);
-  state.gl.BindFramebuffer(gl::DRAW_FRAMEBUFFER, state.framebuffer.name());
-  const int count = curveLayersOf(state.config) / state.config.layers;
-  std::vector<gl::Enum> buffers;
-  for (int i = 0; i < count; ++i) {
-    buffers.push_back(gl::COLOR_ATTACHMENT0 + static_cast<gl::Enum>(i));
-    state.gl.FramebufferTextureLayer(gl::DRAW_FRAMEBUFFER, buffers.back(), state.curves.name(), 0, layer * count + i);
-  }
-  state.gl.DrawBuffers(count, buffers.data());
-  return {};
+  if (Status s = state_->watch.check(); !s) return s;
+  return state_->watch.finish(state_->bindCurves(layer));
 }
 
 AvsmCurves Avsm::curves() const {
@@ -250,6 +188,92 @@ AvsmStatistics Avsm::statistics() {
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
+
+Status Avsm::State::begin(std::uint32_t firstBinding) {
+  gl::Int bindings = 0;
+  gl.GetIntegerv(gl::MAX_SHADER_STORAGE_BUFFER_BINDINGS, &bindings);
+  if (bindings < 2 || firstBinding > static_cast<std::uint32_t>(bindings) - 2)
+    return {StatusCode::InvalidConfig, "firstBinding is " + std::to_string(firstBinding) +
+                                           ": this and the next must be below this context's " +
+                                           std::to_string(bindings) + " storage buffer bindings"};
+  const avsm::BufferGuard guard(gl);
+  began = State::Began::Nothing;
+  gl.MemoryBarrier(gl::BUFFER_UPDATE_BARRIER_BIT); // shaders wrote what is emptied
+  if (lists->receive()) mayBeEmpty = lists->known().firsts == 0;
+  if (Status s = lists->empty(); !s) return s;
+  lists->bind(firstBinding, false);
+  began = State::Began::Capture;
+  return {};
+}
+
+Status Avsm::State::resolve() {
+  if (began == State::Began::Nothing)
+    return {StatusCode::InvalidFrame, "Avsm::resolve needs a begin() or beginStreaming() before it"};
+  streamed = began == State::Began::Streaming;
+  began = State::Began::Nothing;
+  ++version;
+  if (streamed) {
+    gl.MemoryBarrier(kBarriers);
+    return {};
+  }
+  const gl::StateGuard guard(gl);
+  const avsm::StorageGuard storageGuard(gl);
+  recorder.beginFrame();
+  gl.MemoryBarrier(gl::SHADER_STORAGE_BARRIER_BIT | gl::BUFFER_UPDATE_BARRIER_BIT);
+  lists->send();
+  // Scenes without smoke pay a wait instead of passes; the others do not wait.
+  if (mayBeEmpty) mayBeEmpty = lists->wait().firsts == 0;
+  holds = !mayBeEmpty;
+  if (!holds) {
+    recorder.skip("curves", "no segment was captured");
+    return {};
+  }
+  Status status = makeCurves();
+  holds = static_cast<bool>(status);
+  return status;
+}
+
+Status Avsm::State::beginStreaming() {
+  const gl::StateGuard guard(gl);
+  const avsm::StorageGuard storageGuard(gl);
+  began = State::Began::Nothing;
+  recorder.beginFrame();
+  gl.BindImageTexture(0, curves.name(), 0, 1, 0, gl::WRITE_ONLY, gl::RGBA32UI);
+  Status status = run("empty", "passes/avsmEmpty.comp", curveDefinitions());
+  holds = static_cast<bool>(status);
+  if (status) began = State::Began::Streaming;
+  return status;
+}
+
+Status Avsm::State::drawParticles(const Light& light, const AvsmParticles& particles) {
+  if (Status s = checkStreaming("drawParticles"); !s) return s;
+  const gl::StateGuard guard(gl);
+  const avsm::StorageGuard storageGuard(gl);
+  if (Status s = avsm::checkParticles(gl, light, particles, config.layers); !s) return s;
+  const avsm::ParticlesBlock block = avsm::particlesBlock(light, particles.origin, config.size);
+  gl.BindBufferBase(gl::UNIFORM_BUFFER, 0, particlesBlock.name());
+  gl.BufferData(gl::UNIFORM_BUFFER, sizeof block, block.data(), gl::STREAM_DRAW);
+  gl.BindImageTexture(0, curves.name(), 0, 1, 0, gl::READ_WRITE, gl::RGBA32UI);
+  gl.MemoryBarrier(kBarriers);
+  return insertParticles(particles, static_cast<int>(light.shadow.views.size()));
+}
+
+Status Avsm::State::bindCurves(int layer) {
+  if (Status s = checkStreaming("bindCurves"); !s) return s;
+  if (layer < 0 || layer >= config.layers)
+    return {StatusCode::InvalidFrame,
+            "layer is " + std::to_string(layer) + ": the map has " + std::to_string(config.layers) + " layers"};
+  if (!framebuffer) framebuffer = gl::Framebuffer(gl);
+  gl.BindFramebuffer(gl::DRAW_FRAMEBUFFER, framebuffer.name());
+  const int count = curveLayersOf(config) / config.layers;
+  std::vector<gl::Enum> buffers;
+  for (int i = 0; i < count; ++i) {
+    buffers.push_back(gl::COLOR_ATTACHMENT0 + static_cast<gl::Enum>(i));
+    gl.FramebufferTextureLayer(gl::DRAW_FRAMEBUFFER, buffers.back(), curves.name(), 0, layer * count + i);
+  }
+  gl.DrawBuffers(count, buffers.data());
+  return {};
+}
 
 Status Avsm::State::makeObjects() {
   const gl::StateGuard guard(gl);
@@ -293,8 +317,13 @@ Status Avsm::State::makeOrder() {
   return {};
 }
 
+// Of calls that use programs.
+Status Avsm::State::checkContext(const char* function) {
+  if (Status s = watch.check(); !s) return s;
+  return checkFeedback(gl, function);
+}
+
 Status Avsm::State::checkStreaming(const char* function) const {
-  if (!gl.GetString(gl::VERSION)) return {StatusCode::NoContext, "no GL context is current on this thread"};
   if (began != Began::Streaming)
     return {StatusCode::InvalidFrame, std::string("Avsm::") + function + " needs a beginStreaming() before it"};
   return {};

@@ -32,6 +32,7 @@ using Sync = void*;
 // for functions that change nothing of the engine's (queries, draws into our targets, objects of our own).
 #define TYNDALL_GL_REQUIRED(X)                                                                                         \
   X(const std::uint8_t*, GetString, (Enum name), None)                                                                 \
+  X(const std::uint8_t*, GetStringi, (Enum name, Uint index), None)                                                    \
   X(Enum, GetError, (), None)                                                                                          \
   X(void, GetIntegerv, (Enum name, Int * value), None)                                                                 \
   X(void, GetIntegeri_v, (Enum name, Uint index, Int * value), None)                                                   \
@@ -134,7 +135,8 @@ using Sync = void*;
   X(void, QueryCounter, (Uint query, Enum target), None)                                                               \
   X(void, GetQueryObjectui64v, (Uint query, Enum name, Uint64 * value), None)
 
-// Functions of later versions that state of later versions needs; null where the context lacks them.
+// Functions of later versions that state of later versions needs; null where the context lacks them. A loader may know
+// some that a context does not: the version decides, and where it is too low, for ClipControl, the extension.
 #define TYNDALL_GL_OPTIONAL(X)                                                                                         \
   X(void, GetFloati_v, (Enum name, Uint index, Float * value), None)                                                   \
   X(void, ViewportIndexedf, (Uint index, Float x, Float y, Float width, Float height), Viewports)                      \
@@ -153,6 +155,9 @@ using Sync = void*;
   X(Sync, FenceSync, (Enum condition, Bitfield flags), None)                                                           \
   X(Enum, ClientWaitSync, (Sync sync, Bitfield flags, Uint64 nanoseconds), None)                                       \
   X(void, DeleteSync, (Sync sync), None)                                                                               \
+  X(void, ClipControl, (Enum origin, Enum depth), ClipControl)                                                         \
+  X(Enum, GetGraphicsResetStatus, (), None)                                                                            \
+  X(Enum, GetGraphicsResetStatusARB, (), None)                                                                         \
   X(void, PushDebugGroup, (Enum source, Uint id, Sizei length, const Char* message), None)                             \
   X(void, PopDebugGroup, (), None)
 
@@ -161,7 +166,9 @@ struct Functions {
   TYNDALL_GL_REQUIRED(TYNDALL_GL_DECLARE)
   TYNDALL_GL_OPTIONAL(TYNDALL_GL_DECLARE)
 #undef TYNDALL_GL_DECLARE
-  int version = 0; ///< 10 * major + minor of the context
+  int version = 0;               ///< 10 * major + minor of the context
+  bool stencilTexturing = false; ///< a texture may show its stencil in place of its depth
+  bool compatibility = false;    ///< of the compatibility profile
 
   /// Fills the table. Returns the name of the first required function that the loader does not know, empty if all are.
   std::string load(void* (*loader)(const char*));

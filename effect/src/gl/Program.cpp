@@ -3,7 +3,10 @@
 #include "gl/Enums.h"
 #include "gl/ShaderSources.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
+#include <iterator>
 #include <sstream>
 
 namespace tyndall::gl {
@@ -69,14 +72,6 @@ constexpr Sampler kSamplers[] = {
 };
 constexpr std::array<const char*, 3> kBlocks = {"FrameBlock", "LightBlock", "EpipolarBlock"};
 
-std::string prologue(Enum kind, const Definitions& definitions) {
-  std::string text = kind == COMPUTE_SHADER ? "#version 430 core\n" : "#version 330 core\n";
-  text += "#define UNIFORM_BLOCK(name) layout(std140) uniform name\n";
-  for (const auto& [name, value] : definitions)
-    text += "#define " + name + " " + std::to_string(value) + "\n";
-  return text;
-}
-
 std::string numbered(const std::string& text) {
   std::istringstream lines(text);
   std::string result, line;
@@ -92,23 +87,48 @@ std::string keyOf(const std::string& fragment, const Definitions& definitions, c
   return key;
 }
 
-// Those that the shaders mention: variants that differ in no other are one program.
-Definitions mentioned(const Definitions& definitions, const std::string& fragment, const std::string& vertex) {
-  std::string text = shaderSource(fragment.c_str());
-  if (!vertex.empty()) text += shaderSource(vertex.c_str());
+bool continuesWord(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+bool mentions(const std::string& text, const std::string& word) {
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    const bool begins = at == 0 || !continuesWord(text[at - 1]);
+    if (begins && (end == text.size() || !continuesWord(text[end]))) return true;
+  }
+  return false;
+}
+
+bool isCompute(const std::string& file) { return file.size() > 5 && file.substr(file.size() - 5) == ".comp"; }
+
+} // namespace
+
+Definitions mentionedBy(const std::string& text, const Definitions& definitions) {
   Definitions result;
-  for (const auto& definition : definitions)
-    if (text.find(definition.first) != std::string::npos) result.push_back(definition);
+  std::copy_if(definitions.begin(), definitions.end(), std::back_inserter(result),
+               [&](const auto& definition) { return mentions(text, definition.first); });
   return result;
 }
 
-} // namespace
+Definitions mentioned(const Variant& variant) {
+  std::string text = shaderSource(variant.fragment.c_str());
+  if (!variant.vertex.empty()) text += shaderSource(variant.vertex.c_str());
+  return mentionedBy(text, variant.definitions);
+}
+
+std::string completeSource(const std::string& file, const Definitions& definitions) {
+  const std::string body = shaderSource(file.c_str());
+  std::string text = isCompute(file) ? "#version 430 core\n" : "#version 330 core\n";
+  text += "#define UNIFORM_BLOCK(name) layout(std140) uniform name\n";
+  for (const auto& [name, value] : mentionedBy(body, definitions))
+    text += "#define " + name + " " + std::to_string(value) + "\n";
+  return text + body;
+}
 
 Uint ProgramCache::use(const std::string& fragment, const Definitions& definitions, const std::string& vertex) {
   const std::string asked = keyOf(fragment, definitions, vertex);
   auto known = names_.find(asked);
   if (known == names_.end()) {
-    const Definitions needed = mentioned(definitions, fragment, vertex);
+    const Definitions needed = mentioned({fragment, definitions, vertex});
     const std::string key = keyOf(fragment, needed, vertex);
     auto found = programs_.find(key);
     if (found == programs_.end()) {
@@ -126,7 +146,7 @@ Uint ProgramCache::use(const std::string& fragment, const Definitions& definitio
 }
 
 Uint ProgramCache::compile(Enum kind, const std::string& file, const Definitions& definitions) {
-  const std::string text = prologue(kind, definitions) + shaderSource(file.c_str());
+  const std::string text = completeSource(file, definitions);
   const Char* pointer = text.c_str();
   const Uint shader = gl_.CreateShader(kind);
   gl_.ShaderSource(shader, 1, &pointer, nullptr);

@@ -72,10 +72,19 @@ inline constexpr const char* kFullScreen = "passes/fullscreen.vert";
 
 /// What selects a program.
 struct Variant {
-  std::string fragment;
+  std::string fragment; ///< or compute shader
   Definitions definitions;
-  std::string vertex = kFullScreen;
+  std::string vertex = kFullScreen; ///< empty for a compute shader
 };
+
+/// Those definitions that a shader's text mentions, as whole words.
+Definitions mentionedBy(const std::string& text, const Definitions& definitions);
+
+/// Those that a variant's shaders mention: variants that differ in no other are one program.
+Definitions mentioned(const Variant& variant);
+
+/// The complete text of a shader as GL is given it, with those of the definitions that it mentions.
+std::string completeSource(const std::string& file, const Definitions& definitions);
 
 class Program {
 public:

@@ -9,10 +9,10 @@ constexpr std::array<Enum, 3> kTargetBindings = {TEXTURE_BINDING_2D, TEXTURE_BIN
                                                  TEXTURE_BINDING_2D_MULTISAMPLE};
 
 // Whatever would keep a full-screen triangle from writing exactly its colours. Clip distances are added per context.
-constexpr std::array<Enum, 11> kCapabilities = {CULL_FACE,           DEPTH_TEST,         STENCIL_TEST,
+constexpr std::array<Enum, 12> kCapabilities = {CULL_FACE,           DEPTH_TEST,         STENCIL_TEST,
                                                 COLOR_LOGIC_OP,      RASTERIZER_DISCARD, FRAMEBUFFER_SRGB,
                                                 SAMPLE_MASK,         SAMPLE_COVERAGE,    SAMPLE_ALPHA_TO_COVERAGE,
-                                                SAMPLE_ALPHA_TO_ONE, POLYGON_SMOOTH};
+                                                SAMPLE_ALPHA_TO_ONE, POLYGON_SMOOTH,     DITHER};
 
 constexpr std::array<Enum, 16> kPixelStorage = {
     UNPACK_SWAP_BYTES,  UNPACK_LSB_FIRST,    UNPACK_ROW_LENGTH, UNPACK_SKIP_ROWS, UNPACK_SKIP_PIXELS, UNPACK_ALIGNMENT,
@@ -53,6 +53,7 @@ StateGuard::StateGuard(const Functions& gl) : gl_(gl) {
   for (std::size_t i = 0; i < kPixelStorage.size(); ++i)
     pixelStorage_[i] = integer(gl, kPixelStorage[i]);
   gl.GetIntegerv(POLYGON_MODE, polygonMode_.data());
+  if (gl.ClipControl) clipControl_ = {integer(gl, CLIP_ORIGIN), integer(gl, CLIP_DEPTH_MODE)};
   for (std::size_t i = 0; i < uniformBindings_.size(); ++i) {
     const auto index = static_cast<Uint>(i);
     gl.GetIntegeri_v(UNIFORM_BUFFER_BINDING, index, &uniformBindings_[i].buffer);
@@ -69,7 +70,8 @@ StateGuard::StateGuard(const Functions& gl) : gl_(gl) {
 }
 
 StateGuard::~StateGuard() {
-  gl_.UseProgram(static_cast<Uint>(program_));
+  // Under active transform feedback GL refuses even the same.
+  if (integer(gl_, CURRENT_PROGRAM) != program_) gl_.UseProgram(static_cast<Uint>(program_));
   gl_.BindVertexArray(static_cast<Uint>(vertexArray_));
   gl_.BindFramebuffer(DRAW_FRAMEBUFFER, static_cast<Uint>(framebuffer_));
   gl_.BindRenderbuffer(RENDERBUFFER, static_cast<Uint>(renderbuffer_));
@@ -88,6 +90,7 @@ StateGuard::~StateGuard() {
   }
   gl_.BindBuffer(UNIFORM_BUFFER, static_cast<Uint>(uniformBuffer_)); // after the indexed ones: they bind it too
   gl_.PolygonMode(FRONT_AND_BACK, static_cast<Enum>(polygonMode_[0]));
+  if (gl_.ClipControl) gl_.ClipControl(static_cast<Enum>(clipControl_[0]), static_cast<Enum>(clipControl_[1]));
   std::size_t at = 0;
   for (const Enum capability : capabilitiesOf(gl_))
     setCapability(gl_, capability, capabilities_[at++]);
@@ -217,6 +220,7 @@ void StateGuard::setDefaults() const {
   gl_.Disable(SCISSOR_TEST);
   gl_.Disable(BLEND);
   gl_.PolygonMode(FRONT_AND_BACK, FILL);
+  if (gl_.ClipControl) gl_.ClipControl(LOWER_LEFT, NEGATIVE_ONE_TO_ONE); // strips and tiles are placed by clip-space y
   gl_.BindBuffer(PIXEL_PACK_BUFFER, 0);
   gl_.BindBuffer(PIXEL_UNPACK_BUFFER, 0);
   for (const Enum parameter : kPixelStorage)

@@ -67,6 +67,7 @@ private:
   Int uniformBuffer_ = 0;
   Int activeUnit_ = 0;
   std::array<Int, 2> polygonMode_{};
+  std::array<Int, 2> clipControl_{}; // origin, depth mode; where the context has them
   std::array<Unit, kTextureUnits> units_;
   std::array<UniformBinding, kUniformBindings> uniformBindings_;
   std::vector<DrawBuffer> drawBuffers_;

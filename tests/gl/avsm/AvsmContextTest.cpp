@@ -172,6 +172,49 @@ TEST_CASE("avsm: calls out of order, and bindings that the context lacks") {
   CHECK(rig.bits() == bits);
 }
 
+TEST_CASE("avsm: a lost context is never Ok, and stays lost") {
+  if (!tests::hasAvsm()) return;
+  const auto checkLost = [](const Status& status) { checkRefused(status, StatusCode::ContextLost, {"lost"}); };
+  const FakeContext fake(
+      {}, {{"glGetError", address(+[]() -> GLenum { return failing ? GL_CONTEXT_LOST : gl().GetError(); })}});
+  failing = true;
+  checkLost(Avsm::create(smallConfig(fake.loader())).status);
+  const Light light;
+  const std::vector<std::function<Status(Avsm&)>> calls = {
+      [](Avsm& a) { return a.begin(); }, [](Avsm& a) { return a.beginStreaming(); },
+      [](Avsm& a) { return a.bindCurves(0); }, [&](Avsm& a) { return a.drawParticles(light, {}); },
+      [](Avsm& a) { return a.resolve(); }};
+  for (const auto& call : calls) {
+    failing = false;
+    const AvsmResult result = Avsm::create(smallConfig(fake.loader()));
+    REQUIRE(result.avsm);
+    CHECK(result.avsm->beginStreaming());
+    failing = true;
+    checkLost(call(*result.avsm));
+    failing = false;
+    for (const auto& later : calls)
+      checkLost(later(*result.avsm));
+  }
+}
+
+TEST_CASE("avsm: calls that use programs are refused during transform feedback") {
+  if (!tests::hasAvsm()) return;
+  const FakeContext fake({}, {{"glGetIntegerv", address(+[](GLenum name, GLint* value) {
+                                 gl().GetIntegerv(name, value);
+                                 if (name == GL_TRANSFORM_FEEDBACK_ACTIVE) *value = failing ? 1 : 0;
+                               })}});
+  failing = false;
+  const AvsmResult result = Avsm::create(smallConfig(fake.loader()));
+  REQUIRE(result.avsm);
+  CHECK(result.avsm->beginStreaming());
+  failing = true;
+  for (const Status& status :
+       {result.avsm->beginStreaming(), result.avsm->drawParticles({}, {}), result.avsm->resolve()})
+    checkRefused(status, StatusCode::InvalidFrame, {"transform feedback is active"});
+  failing = false;
+  CHECK(result.avsm->resolve());
+}
+
 TEST_CASE("avsm: running out of memory, and shaders that do not build, are reported") {
   if (!tests::hasAvsm()) return;
   {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -201,7 +202,7 @@ TEST_CASE("a black light is skipped, says so, and changes nothing") {
     const reference::ImageAnswer answer = with.render();
     CHECK(whySkipped(tests::testEffect(), "exact light " + std::to_string(black)) == "the light is black");
     CHECK(whySkipped(tests::testEffect(), "exact light " + std::to_string((black + 1) % 3)).empty());
-    CHECK(tests::difference(answer.inscatter, expected.inscatter) <= 1e-4);
+    CHECK(tests::difference(answer.inscatter, expected.inscatter) <= 1e-5);
     Frame without = with.frame;
     without.lights.erase(without.lights.begin() + static_cast<std::ptrdiff_t>(black));
     REQUIRE(tests::testEffect().render(without));
@@ -222,9 +223,12 @@ TEST_CASE("statistics name the passes and time them") {
     const CreateResult result = Effect::create({tests::testContext().loader(), timing});
     REQUIRE(result.effect);
     CHECK(result.effect->statistics().passes.empty());
+    const auto begin = std::chrono::steady_clock::now();
     REQUIRE(result.effect->render(rig.frame));
     const Statistics statistics = result.effect->statistics();
+    const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
     std::vector<std::string> names;
+    double sum = 0;
     for (const PassStatistics& pass : statistics.passes) {
       names.push_back(pass.name);
       CHECK(pass.skipped.empty());
@@ -232,8 +236,9 @@ TEST_CASE("statistics name the passes and time them") {
         CHECK(pass.milliseconds == 0);
       else
         CHECK(pass.milliseconds > 0);
-      CHECK(pass.milliseconds < 60e3);
+      sum += pass.milliseconds;
     }
+    CHECK(sum <= taken.count()); // passes follow one another, and it waited for them
     CHECK(names == std::vector<std::string>{"exact light 0", "exact light 1", "exact light 2", "composite"});
     CHECK(statistics.compiledPrograms == 4);
     CHECK(statistics.bytes > 0);

@@ -64,7 +64,7 @@ TEST_CASE("every depth convention and format gives the same picture") {
         }
         const reference::ImageAnswer& wanted = expected[convention.orthographic];
         CHECK(tests::difference(answer.inscatter, wanted.inscatter) <= quantisation(format, convention));
-        CHECK(tests::difference(answer.transmittance, wanted.transmittance) <= quantisation(format, convention));
+        CHECK(tests::difference(answer.transmittance, wanted.transmittance) <= 0.1 * quantisation(format, convention));
       }
   }
 }
@@ -167,7 +167,7 @@ TEST_CASE("multisampled depth gives the mean over the samples") {
           mean.transmittance.rgb[i] += one.transmittance.rgb[i] / samples;
         }
       }
-      CHECK(tests::difference(answer.inscatter, mean.inscatter) <= 2e-5);
+      CHECK(tests::difference(answer.inscatter, mean.inscatter) <= 4e-6);
       CHECK(tests::difference(answer.transmittance, mean.transmittance) <= 1e-6);
     }
 }

@@ -1,9 +1,11 @@
-// A driver that fails to compile, to link, to render to a format or to find memory: a status, and nothing drawn.
+// A driver that fails to compile, to link, to render to a format or to find memory: a status, and nothing drawn. And
+// one whose context is lost.
 #include "FakeContext.h"
 #include "SceneRig.h"
 #include "gl/ReadBack.h"
 
 #include <catch2/catch.hpp>
+#include <utility>
 
 using namespace tyndall;
 using tests::address;
@@ -26,6 +28,33 @@ GLenum GLAD_API_PTR refuseFramebuffer(GLenum target) {
 }
 GLenum GLAD_API_PTR runOutOfMemory() {
   return host::gl().GetError() == GL_NO_ERROR ? GL_OUT_OF_MEMORY : GL_INVALID_ENUM;
+}
+
+// A reset of the GPU, as soon as there have been so many draws.
+bool lost = false;
+int drawsUntilLost = 0;
+GLenum GLAD_API_PTR errorOfLostContext() { return lost ? GL_CONTEXT_LOST : host::gl().GetError(); }
+GLenum GLAD_API_PTR resetOnce() { return std::exchange(lost, false) ? GL_INNOCENT_CONTEXT_RESET : GL_NO_ERROR; }
+void GLAD_API_PTR drawUntilLost(GLenum mode, GLint first, GLsizei count) {
+  if (--drawsUntilLost < 0) lost = true;
+  if (!lost) host::gl().DrawArrays(mode, first, count);
+}
+const std::map<std::string, void*> kErrors = {{"glGetError", address(errorOfLostContext)},
+                                              {"glDrawArrays", address(drawUntilLost)}};
+const std::map<std::string, void*> kResetStatus = {{"glGetGraphicsResetStatus", address(resetOnce)},
+                                                   {"glGetGraphicsResetStatusARB", address(resetOnce)},
+                                                   {"glDrawArrays", address(drawUntilLost)}};
+
+// The ways to learn of a loss that this context has.
+std::vector<std::map<std::string, void*>> lossSigns() {
+  if (tests::testContext().glVersion() < 45) return {kErrors};
+  return {kErrors, kResetStatus};
+}
+
+void checkLost(const Status& status) {
+  INFO(status.message);
+  CHECK(status.code == StatusCode::ContextLost);
+  CHECK(status.message.find("lost") != std::string::npos);
 }
 
 struct FailingFrame {
@@ -96,4 +125,44 @@ TEST_CASE("running out of memory is reported and nothing is drawn") {
   REQUIRE(result.effect);
   frame.check(*result.effect, StatusCode::OutOfMemory);
   CHECK(result.effect->statistics().bytes < 16 * 24 * 16);
+}
+
+TEST_CASE("a lost context is never Ok, whether errors or the reset status say so, and stays lost") {
+  for (const auto& signs : lossSigns()) {
+    CAPTURE(signs.size());
+    FailingFrame frame;
+    const FakeContext fake({}, signs);
+    drawsUntilLost = 1 << 30;
+    lost = true;
+    checkLost(fake.create().status);
+    for (const bool compiles : {false, true}) {
+      lost = false;
+      const CreateResult result = fake.create();
+      REQUIRE(result.effect);
+      CHECK(result.effect->render(frame.scene.frame));
+      lost = true;
+      checkLost(compiles ? result.effect->compileAll() : result.effect->render(frame.scene.frame));
+      lost = false; // GL may tell of it once only
+      checkLost(result.effect->render(frame.scene.frame));
+      checkLost(result.effect->compileAll());
+    }
+  }
+}
+
+TEST_CASE("a context that is lost in the middle of a frame is not Ok") {
+  for (const auto& signs : lossSigns())
+    for (const Technique technique : {Technique::Exact, Technique::Epipolar})
+      for (int draws = 0; draws < 3; ++draws) {
+        FailingFrame frame;
+        frame.scene.frame.settings.technique = technique;
+        frame.scene.frame.settings.view = View::Difference; // many draws, and a mean that is read
+        const FakeContext fake({}, signs);
+        lost = false;
+        const CreateResult result = fake.create();
+        REQUIRE(result.effect);
+        drawsUntilLost = draws;
+        checkLost(result.effect->render(frame.scene.frame));
+        CAPTURE(result.effect->statistics().passes.size()); // must return
+      }
+  lost = false;
 }

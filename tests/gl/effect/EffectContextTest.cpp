@@ -96,13 +96,13 @@ TEST_CASE("create without a current context is refused") {
 }
 
 // Functions that OpenGL 3.3 lacks, or that no frame needs.
-const std::set<std::string> kLaterFunctions = {"glGetFloati_v", "glViewportIndexedf", "glBlendFuncSeparatei",
-                                               "glBlendEquationSeparatei", "glPushDebugGroup", "glPopDebugGroup",
-                                               // of an AVSM alone
-                                               "glFramebufferTextureLayer", "glDispatchCompute", "glMemoryBarrier",
-                                               "glBindImageTexture", "glTexStorage3D", "glBufferSubData",
-                                               "glClearBufferSubData", "glCopyBufferSubData", "glFenceSync",
-                                               "glClientWaitSync", "glDeleteSync"};
+const std::set<std::string> kLaterFunctions = {
+    "glGetFloati_v", "glViewportIndexedf", "glBlendFuncSeparatei", "glBlendEquationSeparatei", "glPushDebugGroup",
+    "glPopDebugGroup", "glClipControl", "glGetGraphicsResetStatus", "glGetGraphicsResetStatusARB",
+    // of an AVSM alone
+    "glFramebufferTextureLayer", "glDispatchCompute", "glMemoryBarrier", "glBindImageTexture", "glTexStorage3D",
+    "glBufferSubData", "glClearBufferSubData", "glCopyBufferSubData", "glFenceSync", "glClientWaitSync",
+    "glDeleteSync"};
 
 TEST_CASE("create needs no function beyond OpenGL 3.3") {
   const FakeContext fake(kLaterFunctions);

@@ -303,5 +303,5 @@ TEST_CASE("a sample budget marches fewer rays, and two lights under it come near
   CHECK(2 * tests::testEffect().statistics().marchedSamples < marched + 96 * 64);
   const double error = tests::errorWhere(dealt, full, [](int, int) { return true; });
   CHECK(error > 0);
-  CHECK(error < 0.1);
+  CHECK(error < 0.025);
 }

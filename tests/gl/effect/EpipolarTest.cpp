@@ -3,6 +3,7 @@
 #include "reference/Metrics.h"
 #include "support/EffectRig.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -12,13 +13,14 @@ using namespace tyndall;
 namespace {
 
 constexpr int kWidth = 160, kHeight = 96, kMap = 256;
+constexpr int kFirstOfSky = 81; // row
 
 // A wall with a step in front of the camera, some sky.
 std::vector<float> sceneDepth() {
   std::vector<float> depth;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x)
-      depth.push_back(y > 80 ? 0.0F : x > 100 ? 0.05F / 4 : 0.05F / (6 + 0.01F * static_cast<float>(y)));
+      depth.push_back(y >= kFirstOfSky ? 0.0F : x > 100 ? 0.05F / 4 : 0.05F / (6 + 0.01F * static_cast<float>(y)));
   return depth;
 }
 
@@ -86,20 +88,27 @@ TEST_CASE("tree and epipolar equal exact where every texel is lit") {
         const reference::ErrorMetrics lit = Rig(kind, Map::Lit, direction).errorOf(technique);
         INFO(lit.text());
         CHECK(lit.mean > 0);
-        CHECK(lit.rRmse <= (technique == Technique::Tree ? 1e-4 : 2e-2));
-        CHECK(lit.p99 <= (technique == Technique::Tree ? 1e-4 : 5e-2));
+        CHECK(lit.rRmse <= (technique == Technique::Tree ? 1e-4 : 5e-3));
+        CHECK(lit.p99 <= (technique == Technique::Tree ? 1e-4 : 1.2e-2));
       }
 }
 
+// The sky is lit: what lies above the casters is, in front of them. The near plane is 1, they hang at 5 % of the depth
+// range.
 TEST_CASE("tree and epipolar give black where every texel is dark") {
   for (const Vec3& direction : kDirections)
     for (const Technique technique : {Technique::Tree, Technique::Epipolar}) {
+      CAPTURE(direction[0], direction[1], direction[2], static_cast<int>(technique));
       Rig rig(LightKind::Directional, Map::Dark, direction);
+      rig.frame.frame.settings.technique = Technique::Exact;
+      const reference::Image truth = rig.frame.render().inscatter;
       rig.frame.frame.settings.technique = technique;
       const reference::Image inscatter = rig.frame.render().inscatter;
-      // What lies above the casters is lit in front of them: the near plane is 1, they hang at 5 % of the depth range.
-      rig.frame.frame.settings.technique = Technique::Exact;
-      CHECK(reference::compare(inscatter, rig.frame.render().inscatter).rRmse <= 0.02);
+      const auto wall = inscatter.rgb.begin() + 3 * kWidth * (kFirstOfSky - (technique == Technique::Tree ? 0 : 1));
+      CHECK(std::all_of(inscatter.rgb.begin(), wall, [](double value) { return value == 0; }));
+      const reference::ErrorMetrics error = reference::compare(inscatter, truth);
+      CHECK(error.mean > 2e-3);
+      CHECK(error.rRmse <= (technique == Technique::Tree ? 1e-4 : 0.02));
     }
 }
 
@@ -110,7 +119,7 @@ TEST_CASE("tree and epipolar come close to exact behind wide slats") {
       const reference::ErrorMetrics error = Rig(LightKind::Directional, Map::Slats, direction).errorOf(technique);
       INFO(error.text());
       CHECK(error.mean > 0);
-      CHECK(error.rRmse <= 0.05);
+      CHECK(error.rRmse <= 0.03);
     }
 }
 

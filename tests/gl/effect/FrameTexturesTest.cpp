@@ -1,10 +1,13 @@
 // Every rule about a frame's textures: a valid frame with one texture broken is refused with field, name and rule.
+#include "FakeContext.h"
 #include "RefusalRig.h"
 
 #include <catch2/catch.hpp>
 
 using namespace tyndall;
 using host::gl;
+using tests::address;
+using tests::FakeContext;
 
 namespace {
 
@@ -184,6 +187,59 @@ TEST_CASE("a base level other than 0 is refused") {
     gl().TexParameteri(target, GL_TEXTURE_BASE_LEVEL, 1);
     refuse(rig, slot, texture.name(), "GL_TEXTURE_BASE_LEVEL must be 0");
   }
+}
+
+// Samplers do not undo it, and what is read of depth is one channel.
+TEST_CASE("a texture whose swizzle changes what is read of it is refused, a tint in another order is not") {
+  tests::RefusalRig rig;
+  const std::vector<GLint> own = {GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA};
+  for (const Slot& slot : kSlots) {
+    const GLenum target = slot.layers == 0 ? GL_TEXTURE_2D : GL_TEXTURE_2D_ARRAY;
+    const int read = slot.use == Use::Depth ? 1 : slot.field.rfind("output", 0) == 0 ? 3 : 0;
+    for (int channel = 0; channel < 4; ++channel)
+      for (const GLint source : {GL_ZERO, GL_ONE, GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA}) {
+        if (source == own[static_cast<std::size_t>(channel)]) continue;
+        CAPTURE(channel, source);
+        const host::GlTexture texture = make(slot.layers, goodFormat(slot.use), slot.size(), slot.size());
+        gl().TexParameteri(target, GL_TEXTURE_SWIZZLE_R + static_cast<GLenum>(channel), source);
+        if (channel < read) {
+          refuse(rig, slot, texture.name(), std::string("GL_TEXTURE_SWIZZLE_") + "RGB"[channel] + " must be GL_");
+        } else if (source == GL_ZERO) {
+          Frame good = rig.frame;
+          slot.name(good) = texture.name();
+          rig.checkAccepted(good);
+        }
+      }
+  }
+}
+
+TEST_CASE("a depth texture of a compatibility context that gives depth as alpha is refused") {
+  static GLint mode = 0;
+  const FakeContext fake({}, {{"glGetIntegerv", address(+[](GLenum name, GLint* value) {
+                                 if (name == GL_CONTEXT_PROFILE_MASK)
+                                   *value = GL_CONTEXT_COMPATIBILITY_PROFILE_BIT;
+                                 else
+                                   gl().GetIntegerv(name, value);
+                               })},
+                              {"glGetTexParameteriv", address(+[](GLenum target, GLenum name, GLint* value) {
+                                 constexpr GLenum kDepthTextureMode = 0x884B; // of that profile alone
+                                 if (name == kDepthTextureMode)
+                                   *value = mode;
+                                 else
+                                   gl().GetTexParameteriv(target, name, value);
+                               })}});
+  const CreateResult created = fake.create();
+  REQUIRE(created.effect);
+  tests::RefusalRig rig;
+  for (const GLint accepted : {0x1909 /* GL_LUMINANCE */, 0x8049 /* GL_INTENSITY */, GL_RED}) {
+    mode = accepted;
+    CHECK(created.effect->render(rig.frame));
+  }
+  mode = GL_ALPHA;
+  const Status status = created.effect->render(rig.frame);
+  CHECK(status.code == StatusCode::InvalidFrame);
+  CHECK(status.message.find("Frame::depth.texture") == 0);
+  CHECK(status.message.find("GL_DEPTH_TEXTURE_MODE must not be GL_ALPHA") != std::string::npos);
 }
 
 TEST_CASE("a depth texture that is set to give its stencil is refused") {

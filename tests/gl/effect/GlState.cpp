@@ -85,6 +85,17 @@ const std::map<std::string, GLenum> kIntegers = {
     {"logic op mode", GL_LOGIC_OP_MODE},
     {"unpack alignment", GL_UNPACK_ALIGNMENT},
     {"unpack row length", GL_UNPACK_ROW_LENGTH},
+    {"unpack LSB first", GL_UNPACK_LSB_FIRST},
+    {"unpack skip images", GL_UNPACK_SKIP_IMAGES},
+    {"unpack image height", GL_UNPACK_IMAGE_HEIGHT},
+    {"pack row length", GL_PACK_ROW_LENGTH},
+    {"pack skip rows", GL_PACK_SKIP_ROWS},
+    {"pack LSB first", GL_PACK_LSB_FIRST},
+    {"pack skip images", GL_PACK_SKIP_IMAGES},
+    {"pack image height", GL_PACK_IMAGE_HEIGHT},
+    {"stencil clear value", GL_STENCIL_CLEAR_VALUE},
+    {"primitive restart index", GL_PRIMITIVE_RESTART_INDEX},
+    {"transform feedback buffer", GL_TRANSFORM_FEEDBACK_BUFFER_BINDING},
     {"provoking vertex", GL_PROVOKING_VERTEX},
 };
 
@@ -112,6 +123,11 @@ GlState captureGlState() {
     addIntegers(state, name, query);
   addIntegers(state, "viewport", GL_VIEWPORT, 4);
   addIntegers(state, "scissor box", GL_SCISSOR_BOX, 4);
+  if (testContext().glVersion() >= 41) addIntegers(state, "program pipeline", GL_PROGRAM_PIPELINE_BINDING);
+  if (testContext().glVersion() >= 45) {
+    addIntegers(state, "clip origin", GL_CLIP_ORIGIN);
+    addIntegers(state, "clip depth mode", GL_CLIP_DEPTH_MODE);
+  }
   for (const auto& [name, query] :
        std::map<std::string, GLenum>{{"clear colour", GL_COLOR_CLEAR_VALUE}, {"blend colour", GL_BLEND_COLOR}}) {
     GLfloat values[4];
@@ -184,6 +200,7 @@ Poison::Poison() {
     g.Disablei(GL_SCISSOR_TEST, 2);
   }
   g.PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+  if (testContext().glVersion() >= 45) g.ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
   g.LogicOp(GL_XOR);
   g.DepthFunc(GL_NEVER);
   g.DepthMask(GL_FALSE);
@@ -245,6 +262,7 @@ void Poison::lift() {
   g.BindFramebuffer(GL_FRAMEBUFFER, 0);
   g.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   g.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  if (testContext().glVersion() >= 45) g.ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
   g.DepthFunc(GL_LESS);
   g.DepthMask(GL_TRUE);
   g.StencilFunc(GL_ALWAYS, 0, ~0U);
@@ -261,7 +279,7 @@ void Poison::lift() {
   g.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
   g.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   g.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  for (GLuint unit = 0; unit < 16; ++unit)
+  for (GLuint unit = 0; unit < kUnits; ++unit)
     g.BindSampler(unit, 0);
   g.ActiveTexture(GL_TEXTURE0);
   if (testContext().glVersion() < 43) return;

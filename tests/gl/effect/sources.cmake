@@ -15,6 +15,8 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/FrameTexturesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameValuesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GlState.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/HostileEngineTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/HostileRows.cpp
   ${CMAKE_CURRENT_LIST_DIR}/LowRankTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ReuseFrameTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ReuseMeshTest.cpp

@@ -1,0 +1,58 @@
+// The set of programs has none twice, and the file names of its shaders tell them apart.
+#include "ShaderSet.h"
+
+#include "AllPrograms.h"
+#include "gl/ShaderSources.h"
+
+#include <catch2/catch.hpp>
+#include <regex>
+#include <set>
+
+using namespace tyndall;
+
+namespace {
+
+// Programs as the cache tells them apart.
+std::set<std::string> distinct(const std::vector<gl::Variant>& variants) {
+  std::set<std::string> keys;
+  for (const gl::Variant& v : variants)
+    keys.insert(v.vertex + " " + tests::nameInWords(v.fragment, gl::mentioned(v)));
+  return keys;
+}
+
+} // namespace
+
+TEST_CASE("a definition inside a longer word does not make another program") {
+  CHECK(gl::mentionedBy("int a[MAX_SHADOW_VIEWS]; SHADOW_VIEWS_2", {{"SHADOW_VIEWS", 1}}).empty());
+  CHECK(gl::mentionedBy("#if SHADOW_VIEWS", {{"SHADOW_VIEWS", 1}}).size() == 1);
+  CHECK(gl::mentionedBy("MAX_SHADOW_VIEWS < SHADOW_VIEWS+1", {{"SHADOW_VIEWS", 1}}).size() == 1);
+  const std::regex words("[A-Za-z_][A-Za-z_0-9]*");
+  for (const gl::Variant& variant : effectPrograms()) {
+    const gl::Definitions mentioned = gl::mentioned(variant);
+    if (mentioned.empty()) continue;
+    const std::string text = std::string(shaderSource(variant.fragment.c_str())) + shaderSource(variant.vertex.c_str());
+    static std::map<std::string, std::set<std::string>> known;
+    std::set<std::string>& found = known[variant.fragment + variant.vertex];
+    if (found.empty())
+      for (std::sregex_iterator word(text.begin(), text.end(), words), end; word != end; ++word)
+        found.insert(word->str());
+    for (const auto& [name, value] : mentioned) {
+      CAPTURE(variant.fragment, variant.vertex, name);
+      if (found.count(name) == 0) FAIL_CHECK("not a word of the shaders");
+    }
+  }
+  CAPTURE(distinct(effectPrograms()).size());
+  CHECK(distinct(effectPrograms()).size() > 1000);
+}
+
+TEST_CASE("shaders written as files have names and texts of their own") {
+  std::set<std::string> names, texts;
+  for (const auto& [name, text] : tests::allShaders()) {
+    CAPTURE(name);
+    if (!names.insert(name).second) FAIL_CHECK("two of the same name");
+    if (!texts.insert(text).second) FAIL_CHECK("two of the same text");
+    if (text.rfind("#version ", 0) != 0) FAIL_CHECK("does not begin with #version");
+  }
+  CHECK(names.count("march-directional-one-view-nearest-grey.frag") == 1);
+  CHECK(names.count("strips.vert") == 1);
+}
