@@ -54,5 +54,5 @@ TEST_CASE("shaders written as files have names and texts of their own") {
     if (text.rfind("#version ", 0) != 0) FAIL_CHECK("does not begin with #version");
   }
   CHECK(names.count("march-directional-one-view-nearest-grey.frag") == 1);
-  CHECK(names.count("strips.vert") == 1);
+  CHECK(names.count("fullscreen.vert") == 1);
 }

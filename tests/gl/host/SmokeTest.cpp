@@ -93,7 +93,7 @@ TEST_CASE("a captured ball of smoke dims every line by its closed form", "[smoke
           const double expected = depth < 1e-4 ? 1 : std::exp(-depth);
           worst = std::max(worst, std::abs(tests::curveAt(rig.curve({x, y, 0}), 1) - expected));
         }
-      CHECK(worst < 2e-4);
+      CHECK(worst < 2e-6);
       const tests::Curve middle = rig.curve({kSide / 2, kSide / 2, 0});
       const double nearPlane = spot ? 1 : 0;
       const double depth = (5 - nearPlane) / (10 - nearPlane); // of the ball's middle
