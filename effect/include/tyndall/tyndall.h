@@ -89,7 +89,8 @@ struct ShadowView {
   int layer = 0;                  ///< array layer, 0 for a GL_TEXTURE_2D
 };
 
-/// A light's shadow map: depth as seen from the light, compare mode on or off.
+/// A light's shadow map: depth as seen from the light, compare mode on or off. A texel at or beyond the far value, or
+/// NaN, blocks nothing; one that is nearer than the near plane blocks everything behind that.
 struct ShadowMap {
   std::uint32_t texture =
       0;              ///< GL_TEXTURE_2D or GL_TEXTURE_2D_ARRAY, a depth format or R32F; 0: nothing blocks the light
@@ -102,10 +103,10 @@ struct ShadowMap {
 
 /// Stained glass seen from the light through the same views as the shadow map. Light is tinted behind the glass.
 struct GlassMap {
-  std::uint32_t colour =
-      0; ///< RGB(A) transmittance in [0, 1], 1 where there is no glass; 0: no glass. Same target as the shadow map
+  std::uint32_t colour = 0; ///< RGB(A) transmittance in [0, 1], beyond that clamped, NaN as 0; 1 where there is no
+                            ///< glass. Same target as the shadow map. 0: no glass
   std::uint32_t depth =
-      0; ///< depth of the glass nearest to the light, same size, layers and convention as the shadow map
+      0; ///< depth of the glass nearest to the light, same size, layers and convention as the shadow map; NaN: no glass
 };
 
 /// Transmittance of smoke and hair from the light on, as Avsm::curves() gives it (tyndall/avsm.h), through the same
