@@ -18,14 +18,19 @@ uniform sampler2D glassDepth;
 #endif
 #endif
 
-// Depth stored in a texel, growing away from the light; a texel without a caster never blocks.
+// Depth stored in a texel, growing away from the light; a texel without a caster never blocks, nor does one that is not a number,
+// which makes comparisons false.
 float casterDepth(ivec2 texel, int view) {
   float depth = viewDepth[view].z * TEXEL(shadowMap, texel, view).r;
-  return depth >= viewDepth[view].y ? 3e38 : depth;
+  return depth < viewDepth[view].y ? depth : 3e38;
 }
 
 #if GLASS
-float paneDepth(ivec2 texel, int view) { return viewDepth[view].z * TEXEL(glassDepth, texel, view).r; }
+// The same of the glass: one that is not a number has nothing behind it.
+float paneDepth(ivec2 texel, int view) {
+  float depth = viewDepth[view].z * TEXEL(glassDepth, texel, view).r;
+  return depth < 3e38 ? depth : 3e38;
+}
 // NaN and negative values count as black, values above 1 as clear.
 vec3 paneTint(ivec2 texel, int view) {
   vec3 tint = TEXEL(glassColour, texel, view).rgb;

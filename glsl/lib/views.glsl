@@ -8,9 +8,12 @@ Light ownedLight(Airlight light, ViewSegment segment, int slice);
 #ifndef FADE_STEPS
 #define FADE_STEPS 1
 #endif
+// Parts of a ray that views own, and those between the light and their near planes.
+const int kMostViews = SHADOW_VIEWS == 2 ? MAX_SHADOW_VIEWS : 1, kMostOwned = 2 * kMostViews;
+
 const int kFadeSteps = SHADOW_VIEWS == 2 ? FADE_STEPS : 1; // pieces of a fade, over each of which the weight is a line
 const int kCornerSteps = 4 * kFadeSteps; // where the weight comes and goes without having been 1
-const int kMostPieces = (4 + kCornerSteps) * kFadeSteps * MAX_SHADOW_VIEWS;
+const int kMostPieces = (4 + kCornerSteps) * kFadeSteps * kMostViews;
 
 #if FADES
 
@@ -39,7 +42,7 @@ float viewWeight(int view, Ray ray, float s) {
 
 // Where a view that owns [s, end] fades, the next view that reaches there has the rest of the weight: returns that one, or
 // -1, and cuts `end` so that the owner's weights at the ends of the piece stand for all of it.
-int fadeInto(int owner, Ray ray, vec2 owned[2 * MAX_SHADOW_VIEWS], float s0, float s1, float s, inout float end, out vec2 weight) {
+int fadeInto(int owner, Ray ray, vec2 owned[kMostOwned], float s0, float s1, float s, inout float end, out vec2 weight) {
   int next = -1;
   weight = vec2(1.0);
   for (int i = owner + 1; i < viewCounts.x && next < 0; ++i) {
@@ -76,10 +79,14 @@ Light shadowedLight(Airlight light, Ray ray, float s0, float s1, ivec2 views, bo
 #endif
   bool litOutside = viewCounts.y != 0;
   // Intervals of the views and, where the outside is dark, of the lit parts before their near planes.
-  vec2 owned[2 * MAX_SHADOW_VIEWS];
+  vec2 owned[kMostOwned];
   int count = litOutside ? kViews : 2 * kViews;
-  for (int i = 0; i < count; ++i)
-    owned[i] = viewInterval(i < kViews ? i : i - kViews, ray, s0, s1, i >= kViews);
+  for (int i = 0; i < count; ++i) {
+    vec2 interval = viewInterval(i < kViews ? i : i - kViews, ray, s0, s1, i >= kViews);
+    // Not owned[i]: where pixels of a quad have left the loop, softpipe stores at the index that the first of them left with.
+    for (int k = 0; k < kMostOwned; ++k)
+      if (k == i) owned[k] = interval;
+  }
   Light sum = Light(0.0);
   float s = s0;
   int turn = 0; // of the two views that share a fade

@@ -55,9 +55,12 @@ void main() {
   for (int k = 0; k < samples; ++k) {
     float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy), k)), 0.0);
     transmittance += transmittanceTo(end) / float(samples);
-    int at = k; // insertion sort, ascending
-    for (; at > 0 && ends[at - 1] > end; --at) ends[at] = ends[at - 1];
-    ends[at] = end;
+    for (int i = 0; i < k; ++i) { // insertion sort, ascending
+      float nearer = min(ends[i], end);
+      end = max(ends[i], end);
+      ends[i] = nearer;
+    }
+    ends[k] = end;
   }
   outInscatter = vec4(inscatterOf(cameraRay(gl_FragCoord.xy), ends, samples), 0.0);
   outTransmittance = vec4(transmittance, 1.0);

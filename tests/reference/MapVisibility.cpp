@@ -193,14 +193,16 @@ private:
     Corner result;
     if (!image_.depth.empty()) {
       const double depth = image_.depth[texel];
-      result.hasCaster = depth != farValue;
+      result.hasCaster = depth != farValue && !std::isnan(depth);
       result.light = depthMargin(depth);
     }
     if (light_.hasGlass) {
       const float* colour = &image_.glassColour[3 * texel];
-      result.tint = {colour[0], colour[1], colour[2]};
-      result.hasGlass = result.tint != Rgb(1);
-      result.glass = depthMargin(image_.glassDepth[texel]);
+      for (int c = 0; c < 3; ++c) // NaN counts as black
+        result.tint[c] = colour[c] > 0 ? std::min(colour[c], 1.0F) : 0.0F;
+      const double depth = image_.glassDepth[texel];
+      result.hasGlass = result.tint != Rgb(1) && !std::isnan(depth);
+      result.glass = depthMargin(depth);
     }
     return result;
   }

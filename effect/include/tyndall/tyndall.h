@@ -85,13 +85,16 @@ enum class LightKind { Directional, Point, Spot };
 /// One projection of a shadow map. It owns the part of a camera ray inside its side planes, from its near plane on.
 /// Light that enters through the near plane is unblocked. What lies beyond the far plane is judged by what the map
 /// holds (for cascades only in the last view; elsewhere it falls to the next cascade). A point in several views belongs
-/// to the first of them; a point in none is lit or dark by Light::litOutsideViews.
+/// to the first of them; a point in none is lit or dark by Light::litOutsideViews. What lies beyond a side by no more
+/// than float rounding, about 1e-6 of the distances to the light and to the eye, is inside: so a spot's view may be
+/// exactly as wide as its cone, and views may share a side, as the faces of a cube do, also with matrices of floats.
 struct ShadowView {
   Mat4 clipFromWorld = kIdentity; ///< invertible; standard or reversed depth is read off the matrix
   int layer = 0;                  ///< array layer, 0 for a GL_TEXTURE_2D
 };
 
-/// A light's shadow map: depth as seen from the light, compare mode on or off.
+/// A light's shadow map: depth as seen from the light, compare mode on or off. A texel at or beyond the far value, or
+/// NaN, blocks nothing; one that is nearer than the near plane blocks everything behind that.
 struct ShadowMap {
   std::uint32_t texture =
       0;              ///< GL_TEXTURE_2D or GL_TEXTURE_2D_ARRAY, a depth format or R32F; 0: nothing blocks the light
@@ -104,10 +107,10 @@ struct ShadowMap {
 
 /// Stained glass seen from the light through the same views as the shadow map. Light is tinted behind the glass.
 struct GlassMap {
-  std::uint32_t colour =
-      0; ///< RGB(A) transmittance in [0, 1], 1 where there is no glass; 0: no glass. Same target as the shadow map
+  std::uint32_t colour = 0; ///< RGB(A) transmittance in [0, 1], beyond that clamped, NaN as 0; 1 where there is no
+                            ///< glass. Same target as the shadow map. 0: no glass
   std::uint32_t depth =
-      0; ///< depth of the glass nearest to the light, same size, layers and convention as the shadow map
+      0; ///< depth of the glass nearest to the light, same size, layers and convention as the shadow map; NaN: no glass
 };
 
 /// Transmittance of smoke and hair from the light on, as Avsm::curves() gives it (tyndall/avsm.h), through the same

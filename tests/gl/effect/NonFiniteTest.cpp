@@ -1,8 +1,7 @@
 // NaN and Inf in what the engine hands in: everything keeps to its own pixel and the light stays finite.
-#include "SceneRig.h"
+#include "ReuseRig.h"
 #include "gl/ReadBack.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
@@ -21,6 +20,18 @@ void checkEqualElsewhere(const std::vector<double>& image, const std::vector<dou
   for (std::size_t i = 0; i < image.size(); ++i)
     if (i / channels != own && image[i] != expected[i]) ++different;
   CHECK(different == 0);
+}
+
+// Writes a light's maps with every third texel and every fifth pane replaced; R32F holds anything.
+tests::ShadowRig spoil(tests::ShaftRig& rig, std::size_t light, float depth, float pane) {
+  tests::ShadowRig maps;
+  maps.image = rig.scene.shadow(light);
+  for (std::size_t i = 0; i < maps.image.depth.size(); ++i) {
+    if (i % 3 == 0) maps.image.depth[i] = depth;
+    if (i % 5 == 0 && !maps.image.glassDepth.empty()) maps.image.glassDepth[i] = pane;
+  }
+  maps.upload(rig.scene.frame.lights[light], true, GL_R32F);
+  return maps;
 }
 
 } // namespace
@@ -102,4 +113,57 @@ TEST_CASE("NaN and Inf in a shadow or glass map stay finite in the picture") {
         maps.upload(light, true, GL_R32F);
         tests::checkFinite(rig);
       }
+}
+
+TEST_CASE("a shadow texel or pane that is not a number is none, by every technique") {
+  for (const LightKind kind : {LightKind::Directional, LightKind::Spot, LightKind::Point})
+    for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear})
+      for (const bool glass : {false, true}) {
+        tests::ShaftRig rig(48, 32);
+        rig.addLight(tests::shaftLight(kind), 64, glass);
+        rig.scene.frame.settings.shadowFilter = filter;
+        for (const Technique technique : {Technique::Exact, Technique::Tree, Technique::Epipolar, Technique::LowRank}) {
+          CAPTURE(static_cast<int>(kind), static_cast<int>(filter), glass, static_cast<int>(technique));
+          rig.scene.setShadow(0, reference::ShadowImage(rig.scene.shadow(0)));
+          const reference::Image whole = rig.picture(technique);
+          const tests::ShadowRig none = spoil(rig, 0, 1, kInf);
+          const reference::Image expected = rig.picture(technique);
+          const tests::ShadowRig odd = spoil(rig, 0, kNan, kNan);
+          CHECK(rig.picture(technique).rgb == expected.rgb);
+          CHECK(tests::difference(expected, whole) > 0.01);
+        }
+      }
+}
+
+TEST_CASE("exact equals map-exact with texels and panes that are not numbers") {
+  for (const LightKind kind : {LightKind::Directional, LightKind::Spot}) {
+    CAPTURE(static_cast<int>(kind));
+    tests::SceneRig rig;
+    rig.addLight(kind, tests::Casters::Blocks, true);
+    rig.frame.settings.technique = Technique::Exact;
+    reference::ShadowImage image = rig.shadow(0);
+    for (std::size_t i = 0; i < image.depth.size(); ++i) {
+      if (i % 3 == 0) image.depth[i] = kNan;
+      if (i % 5 == 0) image.glassDepth[i] = kNan;
+      if (i % 7 == 0) image.glassColour[3 * i + i % 3] = kNan;
+    }
+    rig.setShadow(0, image);
+    tests::ShadowRig maps;
+    maps.image = image;
+    maps.upload(rig.frame.lights[0], true, GL_R32F);
+    CHECK(tests::difference(rig.render().inscatter, rig.reference().inscatter) <= 1e-4);
+  }
+}
+
+TEST_CASE("texels that are not numbers do not count as a change") {
+  for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear}) {
+    CAPTURE(static_cast<int>(filter));
+    tests::ShaftRig rig(48, 32);
+    rig.addLight(tests::shaftLight(LightKind::Directional), 64);
+    rig.scene.frame.settings.shadowFilter = filter;
+    const tests::ShadowRig odd = spoil(rig, 0, kNan, kNan);
+    tests::reuse::begin(rig, Changes::Detect);
+    CHECK(tests::reuse::reused(rig).share == 1);
+    CHECK(tests::reuse::reused(rig).share == 0);
+  }
 }

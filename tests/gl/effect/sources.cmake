@@ -5,6 +5,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/CompositeTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ConventionTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/DriverFailureTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/DriverTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EffectContextTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EpipolarInputTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EpipolarSymmetryTest.cpp
@@ -34,4 +35,5 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/TreeTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/TrueLineTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/TurningCameraTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/ViewBorderTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ViewTest.cpp)
