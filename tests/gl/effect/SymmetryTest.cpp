@@ -61,7 +61,7 @@ TEST_CASE("glass that lets everything through equals no glass") {
     rig.setShadow(0, image);
     const reference::ImageAnswer glazed = rig.render();
     rig.frame.lights[0].glass = {};
-    CHECK(tests::difference(glazed.inscatter, rig.render().inscatter) <= 1e-5);
+    CHECK(tests::difference(glazed.inscatter, rig.render().inscatter) <= 1e-6);
   });
 }
 
@@ -98,7 +98,7 @@ TEST_CASE("black glass equals a caster where the glass is") {
     opaque.glassColour.clear();
     opaque.glassDepth.clear();
     rig.setShadow(0, opaque);
-    CHECK(tests::difference(glazed.inscatter, rig.render().inscatter) <= 1e-5);
+    CHECK(tests::difference(glazed.inscatter, rig.render().inscatter) <= 1e-6);
   });
 }
 
