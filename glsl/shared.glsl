@@ -35,6 +35,7 @@ UNIFORM_BLOCK(LightBlock) {
   ivec4 viewCounts;                   // shadow views, 1 if lit outside of them, shadow map width, height
   mat4 texelFromCamera[MAX_SHADOW_VIEWS]; // (x, y, z, 1) to (texel x, texel y, depth, 1) w; depth grows away from the light
   vec4 viewDepth[MAX_SHADOW_VIEWS];   // depth of near and far plane, sign of stored depth, 1 if open beyond the far plane
+  vec4 viewMargin[MAX_SHADOW_VIEWS];  // what lies beyond a side by at most xy + s zw (x, y times w), which is rounding, belongs to the view
   ivec4 viewLayer[MAX_SHADOW_VIEWS];  // array layer in x
   vec4 curveDepth[MAX_SHADOW_VIEWS];  // depth of the curves (lib/curves.glsl) at x: dot(xyz, x) + w, 0 at the near and 1 at the far plane
   ivec4 curveCounts;                  // texels per side of their map, nodes of one, 1 if packed, texels that hold one

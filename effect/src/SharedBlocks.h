@@ -14,7 +14,7 @@ using glm::vec4;
 #undef UNIFORM_BLOCK
 
 static_assert(sizeof(FrameBlock) == 16 * (3 + 1 + 1 + 1 + 2 * MAX_CONSTITUENTS + 2), "std140 has no padding here");
-static_assert(sizeof(LightBlock) == 16 * (9 + 7 * MAX_SHADOW_VIEWS), "std140 has no padding here");
+static_assert(sizeof(LightBlock) == 16 * (9 + 8 * MAX_SHADOW_VIEWS), "std140 has no padding here");
 static_assert(sizeof(EpipolarBlock) == 16 * 11, "std140 has no padding here");
 
 } // namespace tyndall::blocks

@@ -74,7 +74,7 @@ struct Airlight {
   float height2; // squared distance of the ray to the light
 #if LIGHT_KIND == 2
   float axisFoot, axisSlope; // dot(axis, point - light) = axisFoot + (s - foot) axisSlope
-  float axisDistance;        // det(light - eye, ray, axis): b^2 + h^2 A = h^2 sin^2 - axisDistance^2, where less cancels
+  float axisDistance;        // |det(light - eye, ray, axis)|: b^2 + h^2 A = h^2 sin^2 - axisDistance^2, where less cancels
   vec3 sineFoot, sineSlope;  // cross(axis, point - light), likewise
   vec2 lit, inner;           // intervals of s inside the outer and inside the inner cone
 #endif
@@ -91,7 +91,7 @@ float evenLength(Airlight light, float most) {
 // The interval of t = s - foot in which the ray is inside a cone (x: cosine >= 0, y: squared sine of its half angle):
 // where b + t v >= c sqrt(t^2 + h^2). Squared, A t^2 + 2 b v t + C >= 0 with A = v^2 - c^2, C = b^2 - c^2 h^2 and
 // b + t v >= 0; the convex cone meets the line in one interval, which the roots on the forward side bound. For narrow
-// cones A and C come from the sines, in which nothing cancels: X(t) = axis x (point - light) = X0 + t X1, sin = |X| / r.
+// cones A, B and C come from the sines, in which nothing cancels: X(t) = axis x (point - light) = X0 + t X1, sin = |X| / r.
 vec2 coneInterval(Airlight light, vec2 cosSinSquared) {
   const vec2 kNone = vec2(1.0, -1.0);
   const float kFar = 1e30;
@@ -103,7 +103,9 @@ vec2 coneInterval(Airlight light, vec2 cosSinSquared) {
   bool narrow = cosSinSquared.y < 0.5;
   float A = narrow ? cosSinSquared.y - dot(light.sineSlope, light.sineSlope) : v * v - c * c;
   float C = narrow ? cosSinSquared.y * light.height2 - dot(light.sineFoot, light.sineFoot) : b * b - c * c * light.height2;
-  float B = b * v;
+  // A ray through the lamp itself, as far as floats tell (the floor of airlightOf): its direction alone decides.
+  if (light.height2 <= 1.01e-13 * light.foot * light.foot) return A < 0.0 ? kNone : v > 0.0 ? vec2(0.0, kFar) : vec2(-kFar, 0.0);
+  float B = narrow ? -dot(light.sineFoot, light.sineSlope) : b * v;
   float discriminant = c * c * (cosSinSquared.y * light.height2 - light.axisDistance * light.axisDistance);
   if (!(discriminant > 0.0)) return kNone;
   // The stable pair of roots: q = -(B + sign(B) sqrt(D)), roots q / A and C / q.
@@ -141,9 +143,9 @@ Airlight airlightOf(Ray ray) {
   vec3 footFromLight = ray.direction * light.foot - toLight;
   light.axisFoot = dot(lightDirection.xyz, footFromLight);
   light.axisSlope = dot(lightDirection.xyz, ray.direction);
-  light.axisDistance = dot(normal, lightDirection.xyz);
   light.sineFoot = cross(lightDirection.xyz, footFromLight);
   light.sineSlope = cross(lightDirection.xyz, ray.direction);
+  light.axisDistance = dot(lightDirection.xyz, cross(light.sineFoot, light.sineSlope));
   light.lit = light.foot + coneInterval(light, vec2(cone.x, coneSinSquared.x));
   light.inner = light.foot + coneInterval(light, vec2(cone.y, coneSinSquared.y));
 #endif

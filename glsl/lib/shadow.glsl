@@ -43,15 +43,16 @@ void clipInterval(float c, float d, inout float s0, inout float s1) {
   else s1 = min(s1, s);
 }
 
-// The interval of the ray inside a view's side planes; beforeNear: the part between the light and the near plane,
-// else the part from the near plane on. Empty if y <= x.
+// The interval of the ray inside a view's side planes, or beyond them by no more than rounding; beforeNear: the part between the
+// light and the near plane, else the part from the near plane on. Empty if y <= x.
 vec2 viewInterval(int view, Ray ray, float s0, float s1, bool beforeNear) {
   vec4 a = texelFromCamera[view] * vec4(ray.origin, 1.0), b = texelFromCamera[view] * vec4(ray.direction, 0.0);
   vec2 size = vec2(viewCounts.zw);
-  clipInterval(a.x, b.x, s0, s1);
-  clipInterval(a.y, b.y, s0, s1);
-  clipInterval(size.x * a.w - a.x, size.x * b.w - b.x, s0, s1);
-  clipInterval(size.y * a.w - a.y, size.y * b.w - b.y, s0, s1);
+  vec4 margin = viewMargin[view];
+  clipInterval(a.x + margin.x, b.x + margin.z, s0, s1);
+  clipInterval(a.y + margin.y, b.y + margin.w, s0, s1);
+  clipInterval(size.x * a.w - a.x + margin.x, size.x * b.w - b.x + margin.z, s0, s1);
+  clipInterval(size.y * a.w - a.y + margin.y, size.y * b.w - b.y + margin.w, s0, s1);
   float c = a.z - viewDepth[view].x * a.w, d = b.z - viewDepth[view].x * b.w;
   clipInterval(beforeNear ? -c : c, beforeNear ? -d : d, s0, s1);
   if (viewDepth[view].w == 0.0) clipInterval(viewDepth[view].y * a.w - a.z, viewDepth[view].y * b.w - b.z, s0, s1);

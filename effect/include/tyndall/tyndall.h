@@ -83,7 +83,9 @@ enum class LightKind { Directional, Point, Spot };
 /// One projection of a shadow map. It owns the part of a camera ray inside its side planes, from its near plane on.
 /// Light that enters through the near plane is unblocked. What lies beyond the far plane is judged by what the map
 /// holds (for cascades only in the last view; elsewhere it falls to the next cascade). A point in several views belongs
-/// to the first of them; a point in none is lit or dark by Light::litOutsideViews.
+/// to the first of them; a point in none is lit or dark by Light::litOutsideViews. What lies beyond a side by no more
+/// than float rounding, about 1e-6 of the distances to the light and to the eye, is inside: so a spot's view may be
+/// exactly as wide as its cone, and views may share a side, as the faces of a cube do, also with matrices of floats.
 struct ShadowView {
   Mat4 clipFromWorld = kIdentity; ///< invertible; standard or reversed depth is read off the matrix
   int layer = 0;                  ///< array layer, 0 for a GL_TEXTURE_2D

@@ -135,6 +135,45 @@ glm::vec4 boundaryOf(const MediumBoundary& boundary, const glm::dvec3& direction
   return glm::vec4(gradient, glm::dot(gradient, origin - toGlm(boundary.point)));
 }
 
+// How far beyond a side of a shadow view floats may see what belongs to it: a spot whose map is as wide as its cone,
+// and the faces of a cube, would be lit there. The side's plane is a row of texelFromCamera, or the opposite one, times
+// w; its value along a ray is a sum of terms of size `constant` and `slope` times the way from the light to the point.
+// A lamp's sides run through the lamp, except for the rounding of an engine's float matrices, which is added.
+glm::vec4 marginOf(const glm::dmat4& texelFromCamera, const glm::dvec2& size, const Light& light,
+                   const glm::dvec3& lightFromOrigin, double cameraExtent) {
+  constexpr double kRounding = 1e-6; // of a sum of four products in float, and of directions
+  const bool lamp = light.kind != LightKind::Directional;
+  const glm::dmat4 rows = glm::transpose(texelFromCamera);
+  const double reach = cameraExtent + (lamp ? glm::length(lightFromOrigin) : 0.0);
+  glm::vec4 margin(0);
+  for (int i = 0; i < 2; ++i) {
+    const glm::dvec4 low = rows[i], high = size[i] * rows[3] - rows[i];
+    const double slope = glm::length(glm::dvec3(rows[i])) + size[i] * glm::length(glm::dvec3(rows[3]));
+    const double constant = std::abs(rows[i].w) + size[i] * std::abs(rows[3].w);
+    double missed = 0;
+    if (lamp) {
+      const glm::dvec4 position(lightFromOrigin, 1);
+      missed = std::max(std::abs(glm::dot(low, position)), std::abs(glm::dot(high, position)));
+      // Views with a centre elsewhere are as they are meant.
+      if (missed > kRounding * slope * (reach + glm::length(toGlm(light.position)))) missed = 0;
+    }
+    margin[i] = static_cast<float>(kRounding * (constant + slope * reach) + missed);
+    margin[i + 2] = static_cast<float>(kRounding * slope);
+  }
+  return margin;
+}
+
+// No camera ray begins farther from the origin.
+double extentOf(const Camera& camera) {
+  const glm::dmat4 clipFromWorld = toGlm(camera.clipFromView) * toGlm(camera.viewFromWorld);
+  if (!isOrthographic(clipFromWorld)) return 0;
+  const glm::dmat4 worldFromClip = glm::inverse(clipFromWorld);
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    sum += glm::length(glm::dvec3(worldFromClip[axis]));
+  return sum;
+}
+
 } // namespace
 
 blocks::LightBlock lightBlock(const Light& light, const Camera& camera, int shadowWidth, int shadowHeight,
@@ -166,7 +205,10 @@ blocks::LightBlock lightBlock(const Light& light, const Camera& camera, int shad
     texelFromClip[0][0] = texelFromClip[3][0] = 0.5 * shadowWidth;
     texelFromClip[1][1] = texelFromClip[3][1] = 0.5 * shadowHeight;
     texelFromClip[2][2] = reversed ? -1 : 1;
-    block.texelFromCamera[i] = glm::mat4(texelFromClip * glm::translate(depthClipFromWorld, origin));
+    const glm::dmat4 texelFromCamera = texelFromClip * glm::translate(depthClipFromWorld, origin);
+    block.texelFromCamera[i] = glm::mat4(texelFromCamera);
+    block.viewMargin[i] = marginOf(texelFromCamera, glm::dvec2(shadowWidth, shadowHeight), light,
+                                   toGlm(light.position) - origin, extentOf(camera));
     const bool open = light.kind != LightKind::Directional || i == count - 1;
     block.viewDepth[i] = glm::vec4(reversed ? -1 : 0, reversed ? 0 : 1, reversed ? -1 : 1, open ? 1 : 0);
     block.viewLayer[i] = glm::ivec4(view.layer, 0, 0, 0);
