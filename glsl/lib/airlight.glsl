@@ -105,6 +105,8 @@ vec2 coneInterval(Airlight light, vec2 cosSinSquared) {
   bool narrow = cosSinSquared.y < 0.5;
   float A = narrow ? cosSinSquared.y - dot(light.sineSlope, light.sineSlope) : v * v - c * c;
   float C = narrow ? cosSinSquared.y * light.height2 - dot(light.sineFoot, light.sineFoot) : b * b - c * c * light.height2;
+  // A ray through the lamp itself, as far as floats tell (the floor of airlightOf): its direction alone decides.
+  if (light.height2 <= 1.01e-13 * light.foot * light.foot) return A < 0.0 ? kNone : v > 0.0 ? vec2(0.0, kFar) : vec2(-kFar, 0.0);
   float B = narrow ? -dot(light.sineFoot, light.sineSlope) : b * v;
   float discriminant = c * c * (cosSinSquared.y * light.height2 - light.axisDistance * light.axisDistance);
   if (!(discriminant > 0.0)) return kNone;
