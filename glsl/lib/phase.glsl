@@ -20,7 +20,8 @@ Spectrum phaseTowardsEye(float oneMinusCos, float onePlusCos) {
   for (int k = 0; k < counts.x; ++k) {
     vec4 shape = phaseShape[k];
     float d = shape.x + shape.y * (shape.w > 0.0 ? oneMinusCos : onePlusCos);
-    sum += SPECTRUM(phaseWeight[k]) * ((1.0 + shape.z * cosSquared) * inversesqrt(d) / d);
+    float r = inversesqrt(d);
+    sum += SPECTRUM(phaseWeight[k]) * ((1.0 + shape.z * cosSquared) * (r * r * r));
   }
   return sum;
 }

@@ -83,9 +83,12 @@ Light shadowedLight(Airlight light, Ray ray, float s0, float s1, ivec2 views, bo
   int count = litOutside ? kViews : 2 * kViews;
   for (int i = 0; i < count; ++i) {
     vec2 interval = viewInterval(i < kViews ? i : i - kViews, ray, s0, s1, i >= kViews);
-    // Not owned[i]: where pixels of a quad have left the loop, softpipe stores at the index that the first of them left with.
-    for (int k = 0; k < kMostOwned; ++k)
-      if (k == i) owned[k] = interval;
+    // Not owned[i]: where pixels of a quad have left a loop before the others, softpipe stores at the i of one of those.
+#define STORE(k) owned[k] = i == k ? interval : owned[k];
+    STORE(0) STORE(1)
+#if SHADOW_VIEWS == 2
+    STORE(2) STORE(3) STORE(4) STORE(5) STORE(6) STORE(7) STORE(8) STORE(9) STORE(10) STORE(11)
+#endif
   }
   Light sum = Light(0.0);
   float s = s0;

@@ -35,8 +35,8 @@ struct Sums {
 // Adds two samples of a slice, bilinearly, and by how far their end coordinates are from the pixel's.
 void addSlice(int slice, float sliceWeight, vec2 p, float end, inout Sums sums) {
   vec4 line = texelFetch(sliceTable, ivec2(slice, 1), 0);
-  float y = dot(p, line.xy) + line.z, pixel = length(line.xy);
-  if (y < -pixel || y > line.w + pixel) return; // the slice does not come as far
+  float y = dot(p, line.xy) + line.z, beyond = max(max(-y, y - line.w), 0.0);
+  if (beyond * beyond > dot(line.xy, line.xy)) return; // by more than a pixel: the slice does not come as far
   y = clamp(y, 0.0, line.w);
   int low = min(int(y), max(int(line.w) - 1, 0));
   float f = y - float(low);
@@ -76,7 +76,9 @@ void main() {
   vec4 sum = mix(sums.agreeing, vec4(sums.plain.rgb, sums.plainWeight), oneSurface);
   // Next to a lamp inscatter and its shadows change from pixel to pixel; at it every direction has a limit of its own.
   const float kNear = LIGHT_KIND == 0 ? EPIPOLE_GAP : LAMP_PIXELS;
-  if (distance(gl_FragCoord.xy * epipole.z, epipole.xy) < (epipole.z > 0.0 ? kNear : EPIPOLE_GAP) * abs(epipole.z)) discard;
+  vec2 fromEpipole = gl_FragCoord.xy * epipole.z - epipole.xy;
+  float near = (epipole.z > 0.0 ? kNear : EPIPOLE_GAP) * epipole.z;
+  if (dot(fromEpipole, fromEpipole) < near * near) discard;
   if (!(sum.w >= thresholds.y && sum.w > 0.0)) discard;
 #if SPREAD
   // Samples that agree with the pixel but not with each other: edges of shadows run between them.
