@@ -17,16 +17,16 @@ public:
 
   bool hasGlass() const { return buffers_.hasGlass(); }
 
-  /// Draws all that casts shadows into the bound framebuffer, viewport and depth state as they are: no glass and nothing
-  /// unlit, masked materials cut out at their cutoff, blended ones where they are not opaque.
+  /// Draws all that casts shadows into the bound framebuffer, viewport and depth state as they are: no glass and
+  /// nothing unlit, masked materials cut out at their cutoff, blended ones where they are not opaque.
   void drawDepthOnly(const std::vector<glm::dmat4>& worldFromNode, const glm::dmat4& clipFromWorld) {
     shadows_.drawDepthOnly(worldFromNode, clipFromWorld);
   }
 
-  /// Draws a light's shadow map, and its glass map if the scene has glass or blended surfaces, through light.shadow.views in the convention
-  /// of light.shadow.clipDepth. True depth, without offset; casters before a directional light's near plane are
-  /// flattened onto it. A light without views, which nothing can block, gets no textures. Throws host::Error if size or
-  /// views break their rules.
+  /// Draws a light's shadow map, and its glass map if the scene has glass or blended surfaces, through
+  /// light.shadow.views in the convention of light.shadow.clipDepth. True depth, without offset; casters before a
+  /// directional light's near plane are flattened onto it. A light without views, which nothing can block, gets no
+  /// textures. Throws host::Error if size or views break their rules.
   ShadowMapTextures renderShadowMap(const std::vector<glm::dmat4>& worldFromNode, const tyndall::Light& light, int size,
                                     ShadowTarget target = ShadowTarget::Array) {
     return shadows_.render(worldFromNode, light, size, target);
