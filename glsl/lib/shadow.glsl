@@ -290,7 +290,8 @@ Light segmentLight(Airlight light, ViewSegment segment) {
   Line line;
   Walk walk;
   startWalk(segment, line, walk);
-  int pieces = (kPiecesPerCell + 1) * walk.left + 1000 * FILTER_BILINEAR; // bounds the loops whatever the arithmetic does
+  // Bounds the loops whatever the arithmetic does: pieces of cells, changes between them, and one look at nodes every few cells.
+  int pieces = (kPiecesPerCell + 2) * walk.left + 8 + 1000 * FILTER_BILINEAR;
   Light sum = Light(0.0);
   Visibility current = Visibility(0.0);
   float from = 0.0;
@@ -300,7 +301,6 @@ Light segmentLight(Airlight light, ViewSegment segment) {
     float begin = 0.0, end = 0.0;
     while (!done && weight == Visibility(0.0)) {
 #ifdef SKIPS_NODES
-      --pieces;
       if (walk.u >= walk.stop) skipNodes(line, current, walk);
 #endif
       bool walking = true;
@@ -310,7 +310,10 @@ Light segmentLight(Airlight light, ViewSegment segment) {
       }
       done = walk.left <= 0 || pieces <= 0;
 #ifdef SKIPS_NODES
-      if (!done && walk.u >= walk.stop) continue;
+      if (!done && walk.u >= walk.stop) {
+        --pieces;
+        continue;
+      }
 #endif
       float uCell = cellEnd(line, walk), uEnd = uCell;
 #if FILTER_BILINEAR && LIGHT_KIND == 0
