@@ -68,6 +68,8 @@ Status Effect::render(const Frame& frame) {
   return state_->watch.finish(state_->render(frame));
 }
 
+PrepareStatus Effect::prepare(const Frame&) { return {}; } // TEMPORARY: written on the branch of the frame's plan
+
 Statistics Effect::statistics() {
   State& state = *state_;
   const std::uint64_t blocks = sizeof(blocks::FrameBlock) + sizeof(blocks::LightBlock) + sizeof(blocks::EpipolarBlock);

@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -351,9 +352,32 @@ struct Statistics {
 /// Resolves a GL function by name, as glfwGetProcAddress or eglGetProcAddress do.
 using GlLoader = void* (*)(const char* name);
 
+/// Where an engine keeps linked programs from one run to the next, so that they need not be compiled again. A key is a
+/// file name of letters, digits, '-' and '_'; it holds what the bytes depend on: shader texts, driver, GL version.
+/// Without both functions nothing is kept. Called during prepare(), render() and compileAll(), on their thread.
+struct ProgramStore {
+  std::function<std::vector<std::uint8_t>(const std::string& key)> load; ///< empty for a key that is not known
+  std::function<void(const std::string& key, const std::vector<std::uint8_t>& bytes)> save;
+};
+
+/// What becomes of the GL state that a call changes.
+enum class StateMode {
+  Restore, ///< on return it equals that on entry
+  Leave,   ///< it is left as said at Effect, without asking for what it was: queries stall threaded drivers
+};
+
 struct Config {
   GlLoader loader = nullptr;
   PassTiming timing = PassTiming::Off;
+  ProgramStore programs;
+  StateMode state = StateMode::Restore;
+};
+
+/// How far Effect::prepare() is.
+struct PrepareStatus {
+  Status status;
+  int left = 0; ///< programs that are still being compiled
+  bool ready() const { return static_cast<bool>(status) && left == 0; }
 };
 
 struct CreateResult;
@@ -365,6 +389,12 @@ public:
   ~Effect();
   Effect(const Effect&) = delete;
   Effect& operator=(const Effect&) = delete;
+
+  /// Compiles what this frame can need, what its reuse and its fix-up can need included, so that render() of frames
+  /// like it compiles nothing. Draws nothing. With GL_KHR_parallel_shader_compile it does not wait: call it again, once
+  /// a frame, until ready(), and skip the effect until then; without, it returns when all is compiled. The status is
+  /// render()'s for a frame that breaks a rule, ShaderError for a program that does not build.
+  PrepareStatus prepare(const Frame& frame);
 
   /// Adds the shafts to the frame. Unless the status is Ok nothing was drawn and the colour is untouched. GL state on
   /// return equals GL state on entry.
