@@ -1,5 +1,6 @@
 // Uniform blocks and limits, read by the shader compiler and by the C++ compiler (effect/src/SharedBlocks.h), so that
-// both see one layout. Every member is a vec4, ivec4 or mat4 (or an array of them): std140 and C++ then agree.
+// both see one layout. Every row of a block is 16 bytes: a vec4, four scalars, a vec3 and a scalar, two scalars and a pair, or one of a
+// matrix or an array of rows; what is not used of one is named padding. std140 and C++ then agree. Members are global names to shaders.
 //
 // Positions are relative to the eye (perspective) or to the centre of the clip volume (orthographic), in world units and
 // world orientation: no shader adds a world position.
@@ -15,46 +16,86 @@ UNIFORM_BLOCK(FrameBlock) {
   // farPoint[0] + p.x farPoint[1] + p.y farPoint[2] + t nearStep, p in pixels from the image's centre.
   vec4 farPoint[3];
   vec4 nearStep;
-  vec4 depthToT;                      // x + y * depth = t; z: 1 if orthographic; w: ray length for the sky
-  vec4 extinction;                    // sigma_t, rgb; w: ray length beyond which nothing visible is added
+  float depthOffset, depthScale;      // t = depthOffset + depthScale * depth
+  int isOrthographic;
+  float skyEnd;                       // ray length for the sky
+  vec3 extinction;                    // sigma_t
+  float visibleEnd;                   // ray length beyond which nothing visible is added
   vec4 phaseWeight[MAX_CONSTITUENTS]; // share of sigma_k in the scattering of all constituents, rgb, times the norm of p_k
   vec4 phaseShape[MAX_CONSTITUENTS];  // a, b, c, side: p_k ~ (1 + c cos^2) (a + b (1 -+ cos))^(-3/2), - for side > 0
-  vec4 limits;                        // largest radiance x: that a light may add, y: that the colour's format holds, z: the output's
-  ivec4 counts;                       // constituents, samples of the depth texture, image width, image height
+  float lightCeiling;                 // largest radiance that a light may add,
+  float colourMax, outputMax;         // that the colour's format holds, the output's
+  int isMultisampled;                 // the depth texture
+  int constituentCount;
+  int depthSampleCount;               // of a pixel
+  ivec2 frameSize;                    // of the image, pixels
+};
+
+// A view of a light's shadow map.
+struct MapView {
+  mat4 texelFromCamera;               // (x, y, z, 1) to (texel x, texel y, depth, 1) w; depth grows away from the light
+  vec4 margin;                        // what lies beyond a side by at most xy + s zw (x, y times w), which is rounding, belongs to the view
+  vec4 curveDepth;                    // depth of the curves (lib/curves.glsl) at x: dot(xyz, x) + w, 0 at the near and 1 at the far plane
+  float nearDepth, farDepth;          // of the near and the far plane
+  float depthSign;                    // of stored depth
+  int isOpen;                         // 1 if open beyond the far plane
+  int layer;                          // of an array
+  int viewPadding0, viewPadding1, viewPadding2;
 };
 
 UNIFORM_BLOCK(LightBlock) {
-  vec4 lightColour;                   // irradiance or radiant intensity times the scattering coefficient of all constituents, rgb
-  vec4 lightDirection;                // unit; where a directional light travels to, the axis of a spot
-  vec4 lightPosition;                 // point, spot; w: range, 0 if without limit
-  vec4 cone;                          // cos(outer), cos(inner), 1 / (cos(inner) - cos(outer)) or 0 for a hard edge,
-                                      // w: panels (in x of airlight.glsl) up to which two nodes resolve the falloff
-  vec4 coneSinSquared;                // sin^2(outer), sin^2(inner)
+  vec3 lightColour;                   // irradiance or radiant intensity times the scattering coefficient of all constituents
+  int isLitOutside;                   // 1 if lit outside of the shadow views
+  vec3 lightDirection;                // unit; where a directional light travels to, the axis of a spot
+  float cascadeFade;                  // share of a shadow view's width over which it fades into the next
+  vec3 lightPosition;                 // point, spot
+  float lightRange;                   // 0 if without limit
+  float outerCosine, innerCosine;     // of a spot's cone; -1 of a point light
+  float outerSineSquared, innerSineSquared;
+  float falloffScale;                 // 1 / (innerCosine - outerCosine), or 0 for a hard edge
+  float falloffPanel;                 // panels (in x of airlight.glsl) up to which two nodes resolve the falloff
+  ivec2 shadowMapSize;                // texels
   vec4 boundary;                      // the light's path in the medium at x is max(0, dot(xyz, x) + w); all 0 if none
-  vec4 fade;                          // x: share of a view's width over which it fades into the next
-  ivec4 viewCounts;                   // shadow views, 1 if lit outside of them, shadow map width, height
-  mat4 texelFromCamera[MAX_SHADOW_VIEWS]; // (x, y, z, 1) to (texel x, texel y, depth, 1) w; depth grows away from the light
-  vec4 viewDepth[MAX_SHADOW_VIEWS];   // depth of near and far plane, sign of stored depth, 1 if open beyond the far plane
-  vec4 viewMargin[MAX_SHADOW_VIEWS];  // what lies beyond a side by at most xy + s zw (x, y times w), which is rounding, belongs to the view
-  ivec4 viewLayer[MAX_SHADOW_VIEWS];  // array layer in x
-  vec4 curveDepth[MAX_SHADOW_VIEWS];  // depth of the curves (lib/curves.glsl) at x: dot(xyz, x) + w, 0 at the near and 1 at the far plane
-  ivec4 curveCounts;                  // texels per side of their map, nodes of one, 1 if packed, texels that hold one
+  int viewCount;                      // shadow views
+  int curvesSize, curvesPacked;       // curves: texels per side of their map, 1 if packed,
+  int texelsPerCurve;                 // texels that hold one
+  MapView shadowViews[MAX_SHADOW_VIEWS];
 };
 
 // Epipolar sampling (Yusov 2013). Window positions are in pixels as gl_FragCoord.xy; the border is the rectangle through
 // the outermost pixel centres.
 UNIFORM_BLOCK(EpipolarBlock) {
-  vec4 epipole;       // homogeneous window position of the light (x, y, w), w: sign of w
-  vec4 border;        // low x, low y, high x, high y
-  vec4 sliceMap;      // arc length of the border where the slices begin, arc length per slice, perimeter; w: 1 if closed
-  vec4 thresholds;    // x: relative change of distance that is a break, y: least bilateral weight, z: bend of the inscatter that is refined
-  vec4 spread;        // x: spread of the samples around a pixel, as a part of the picture's mean, over which it is marched by itself;
-                      // y: optical depth of a stretch of a row that is taken by its average
-  vec4 rowCode;       // coded depth of a row = x depth + y; z: that of a texel without a caster; w: 65535 if it is stored in 16 bit, else 0
-  vec4 lowRankRay;    // low rank (lib/lowRank.glsl): first coordinate of the grid of camera rays, samples a unit; z: terms
-  vec4 lowRankLight;  // extent of the grid of light rays; y: 1 if each slice has factors of its own; z: where the grid begins
-  vec4 stored;        // colours in half floats (lib/stored.glsl): scale of each channel; w: end coordinate of the lowest code
-  ivec4 grid;         // slices, samples, texels of a row, levels of the tree or 0: none
-  ivec4 march;        // shadow views of a draw: the first, how many; z: 1 for the draw that brings what is outside all views; w: of the light
-  ivec4 refresh;      // temporal reuse: slices that are drawn anew though nothing has changed: the first, one past the last
+  vec3 epipole;                       // homogeneous window position of the light (x, y, w)
+  float epipoleSign;                  // of its w
+  vec4 border;                        // low x, low y, high x, high y
+  float slicesBegin, sliceWidth;      // arc length of the border where the slices begin, and per slice
+  float borderLength;
+  int slicesClosed;                   // 1 if the last slice neighbours the first
+  int sliceCount, samplesPerSlice;
+  int rowLength, treeLevels;          // texels of a row, levels of its tree or 0: none
+  float breakThreshold;               // relative change of distance that is a break,
+  float endThreshold;                 // as a difference of end coordinates (lib/stored.glsl)
+  float bendThreshold;                // bend of the inscatter that is refined
+  float leastWeight;                  // bilateral
+  float spreadThreshold;              // spread of the samples around a pixel, as a part of the picture's mean, over which it is marched by itself
+  float averageThreshold;             // optical depth of a stretch of a row that is taken by its average
+  int firstRefreshedSlice;            // temporal reuse: slices that are drawn anew though nothing has changed,
+  int endRefreshedSlice;              // up to this one
+  float rowCodeScale, rowCodeOffset;  // coded depth of a row = rowCodeScale depth + rowCodeOffset;
+  float emptyRowCode;                 // that of a texel without a caster
+  float rowCodeSteps;                 // 65535 if it is stored in 16 bit, else 0
+  vec3 storedScale;                   // of colours in half floats (lib/stored.glsl)
+  float leastCoordinate;              // end coordinate of the lowest code
+  int firstView, drawnViews;          // shadow views of a draw
+  int bringsOutside;                  // 1 for the draw that brings what is outside all views
+  int lowRankTerms;                   // low rank (lib/lowRank.glsl)
+  float lowRankRayBegin;              // first coordinate of the grid of camera rays,
+  float lowRankRayScale;              // samples a unit
+  float lowRankLightBegin;            // the same of light rays,
+  float lowRankLightExtent;           // of the whole grid
+  int lowRankPerSlice;                // 1 if each slice has factors of its own
+  int comparesEnds, comparesRows;     // temporal reuse: what is compared with the last frame's,
+  int comparesDepth, comparesSome;    // the depth itself, only some of the slices
+  int shownSamples;                   // debug views of samples: 0 all, 1 at depth breaks, 2 march samples
+  int epipolarPadding0, epipolarPadding1;
 };

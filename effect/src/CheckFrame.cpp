@@ -88,6 +88,8 @@ Status checkViews(const std::string& light, LightKind kind, const ShadowMap& sha
                                                     : "a point light has 1 to 6 (cube faces)";
   const std::size_t most = kind == LightKind::Directional ? 4 : kind == LightKind::Spot ? 1 : 6;
   if (count < 1 || count > most) return invalid(light + "shadow.views", std::to_string(count) + " long", rule);
+  if (count > 1 && !shadow.array)
+    return invalid(light + "shadow.array", "false", "several views need a GL_TEXTURE_2D_ARRAY");
   if (Status s = checkClipDepth(light + "shadow.clipDepth", shadow.clipDepth); !s) return s;
   for (std::size_t i = 0; i < count; ++i) {
     const std::string field = light + "shadow.views[" + std::to_string(i) + "].";
@@ -173,20 +175,20 @@ Status checkView(const Frame& frame) {
   constexpr const char* kNames[] = {"Composite",     "Slices",      "Samples",    "Breaks",
                                     "MarchSamples",  "FixupPixels", "NodeVisits", "Inscatter",
                                     "Transmittance", "Difference",  "Redrawn"};
-  const View view = frame.settings.view;
+  const DebugView view = frame.settings.debugView;
   const Technique technique = frame.settings.technique;
-  if (view < View::Composite || view > View::Redrawn)
-    return invalid("settings.view", std::to_string(static_cast<int>(view)), "must be one of the enumerators");
+  if (view < DebugView::Composite || view > DebugView::Redrawn)
+    return invalid("settings.debugView", std::to_string(static_cast<int>(view)), "must be one of the enumerators");
   const std::string name = kNames[static_cast<int>(view)];
-  if (view != View::Composite && frame.colour == 0)
-    return invalid("settings.view", name, "needs Frame::colour, which the view replaces");
-  if (view < View::Slices || view > View::NodeVisits) return {};
+  if (view != DebugView::Composite && frame.colour == 0)
+    return invalid("settings.debugView", name, "needs Frame::colour, which the view replaces");
+  if (view < DebugView::Slices || view > DebugView::NodeVisits) return {};
   if (technique == Technique::Exact || frame.depth.multisampled)
-    return invalid("settings.view", name,
+    return invalid("settings.debugView", name,
                    "needs slices: technique Tree, LowRank or Epipolar, and a depth that is not multisampled");
-  if ((technique == Technique::Tree || technique == Technique::LowRank) && view != View::Slices &&
-      view != View::NodeVisits)
-    return invalid("settings.view", name, "needs samples: technique Epipolar");
+  if ((technique == Technique::Tree || technique == Technique::LowRank) && view != DebugView::Slices &&
+      view != DebugView::NodeVisits)
+    return invalid("settings.debugView", name, "needs samples: technique Epipolar");
   return {};
 }
 

@@ -25,8 +25,8 @@ struct FrameTextures {
 /// Checks numbers only: sizes, matrices, lights, medium, settings.
 Status checkValues(const Frame& frame);
 
-/// Checks the frame's textures in the current context: existence, target, format, size. Binds textures: call it under a
-/// StateGuard. The values must have passed.
+/// Checks the frame's textures in the current context: existence, target, format, size. Binds textures to
+/// the active unit: call it under a StateGuard. The values must have passed.
 Status checkTextures(const gl::Functions& gl, const Frame& frame, FrameTextures& textures);
 
 } // namespace tyndall

@@ -1,5 +1,5 @@
 #include "CheckFrame.h"
-#include "gl/Enums.h"
+#include "gl/OwnErrors.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ enum class Use { Colour, Output, Depth, Tint, Curves };
 struct Info {
   Int width = 0;
   Int height = 0;
-  Int layers = 0;
+  Int layers = 1;
   Int format = 0;
   Int samples = 0;
 };
@@ -86,28 +86,29 @@ float largestValue(Int format) {
   }
 }
 
-// Binds a texture to unit 0 and reads what it is; a texture of another target leaves the old binding, and one GL error,
-// which is taken back.
+// Binds a texture to the active unit, if it is of the target. Contexts that know no other way say so by an error.
+bool bindIfOf(const Functions& gl, Uint name, Enum target) {
+  Int its = 0;
+  if (gl.GetTextureParameteriv) {
+    gl.GetTextureParameteriv(name, TEXTURE_TARGET, &its);
+    if (static_cast<Enum>(its) == target) gl.BindTexture(target, name);
+    return static_cast<Enum>(its) == target;
+  }
+  OwnErrors errors(gl);
+  gl.BindTexture(target, name);
+  return errors.take() == NO_ERROR;
+}
+
+// Leaves the texture bound.
 Status inspect(const Functions& gl, const std::string& field, Uint name, Enum target, Info& info) {
   if (!gl.IsTexture(name))
     return invalid(field, name, "not the name of a texture in this context (deleted, or never bound?)");
-  gl.ActiveTexture(TEXTURE0);
-  gl.BindTexture(target, 0);
-  gl.BindTexture(target, name);
-  Int bound = 0;
-  gl.GetIntegerv(target == TEXTURE_2D         ? TEXTURE_BINDING_2D
-                 : target == TEXTURE_2D_ARRAY ? TEXTURE_BINDING_2D_ARRAY
-                                              : TEXTURE_BINDING_2D_MULTISAMPLE,
-                 &bound);
-  if (static_cast<Uint>(bound) != name) {
-    gl.GetError();
-    return invalid(field, name, std::string("must be a ") + targetName(target));
-  }
+  if (!bindIfOf(gl, name, target)) return invalid(field, name, std::string("must be a ") + targetName(target));
   gl.GetTexLevelParameteriv(target, 0, TEXTURE_WIDTH, &info.width);
   gl.GetTexLevelParameteriv(target, 0, TEXTURE_HEIGHT, &info.height);
-  gl.GetTexLevelParameteriv(target, 0, TEXTURE_DEPTH, &info.layers);
   gl.GetTexLevelParameteriv(target, 0, TEXTURE_INTERNAL_FORMAT, &info.format);
-  gl.GetTexLevelParameteriv(target, 0, TEXTURE_SAMPLES, &info.samples);
+  if (target == TEXTURE_2D_ARRAY) gl.GetTexLevelParameteriv(target, 0, TEXTURE_DEPTH, &info.layers);
+  if (target == TEXTURE_2D_MULTISAMPLE) gl.GetTexLevelParameteriv(target, 0, TEXTURE_SAMPLES, &info.samples);
   if (info.width < 1) return invalid(field, name, "has no level 0");
   if (target != TEXTURE_2D_MULTISAMPLE) {
     Int base = 0;
@@ -140,10 +141,10 @@ Status checkChannels(const Functions& gl, const std::string& field, Uint name, E
                                                                  {GREEN, "G must be GL_GREEN"},
                                                                  {BLUE, "B must be GL_BLUE"},
                                                                  {ALPHA, "A must be GL_ALPHA"}}};
+  std::array<Int, 4> sources = {RED, GREEN, BLUE, ALPHA};
+  if (channelsRead(use) > 0) gl.GetTexParameteriv(target, TEXTURE_SWIZZLE_RGBA, sources.data());
   for (std::size_t i = 0; i < channelsRead(use); ++i) {
-    Int source = 0;
-    gl.GetTexParameteriv(target, TEXTURE_SWIZZLE_R + static_cast<Enum>(i), &source);
-    if (static_cast<Enum>(source) != kOwn[i].first)
+    if (static_cast<Enum>(sources[i]) != kOwn[i].first)
       return invalid(field, name, std::string("GL_TEXTURE_SWIZZLE_") + kOwn[i].second);
   }
   if (use != Use::Depth) return {};

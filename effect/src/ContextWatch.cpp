@@ -1,28 +1,54 @@
 #include "ContextWatch.h"
 
-#include "gl/Enums.h"
+#include "gl/OwnErrors.h"
+
+#include <atomic>
 
 namespace tyndall {
 
-// Errors are asked for once, not until there is none: a lost context has one more each time. The engine may learn of
-// the reset from us alone, for GL tells some of it only once.
+void ContextWatch::mark() {
+  static std::atomic<int> count{0};
+  number_ = -1000 - ++count % 1000000; // exact in a float
+  array_ = gl::VertexArray(gl_);
+  gl_.BindVertexArray(array_.name()); // a name becomes an object when it is first bound
+  sampler_ = gl::Sampler(gl_);
+  gl_.SamplerParameteri(sampler_.name(), gl::TEXTURE_MIN_LOD, number_);
+}
+
+bool ContextWatch::holdsMarks() const {
+  if (!gl_.IsVertexArray(array_.name()) || !gl_.IsSampler(sampler_.name())) return false;
+  gl::Int number = 0;
+  gl_.GetSamplerParameteriv(sampler_.name(), gl::TEXTURE_MIN_LOD, &number);
+  return number == number_;
+}
+
+// GL may tell of a reset only once: the engine may learn of it from us alone.
+bool ContextWatch::wasReset() const {
+  return gl_.GetGraphicsResetStatus && gl_.GetGraphicsResetStatus() != gl::NO_ERROR;
+}
+
 Status ContextWatch::lost() {
-  if (!lost_ && gl_.GetGraphicsResetStatus) lost_ = gl_.GetGraphicsResetStatus() != gl::NO_ERROR;
-  if (!lost_) lost_ = gl_.GetError() == gl::CONTEXT_LOST;
-  if (!lost_) return {};
+  lost_ = true;
   return {StatusCode::ContextLost,
           "the GL context was lost by a reset of the GPU: make another, and all objects in it"};
 }
 
 Status ContextWatch::check() {
-  if (lost_ || gl_.GetString(gl::VERSION)) return lost();
-  if (gl_.GetError && gl_.GetError() == gl::CONTEXT_LOST) lost_ = true;
-  return lost_ ? lost() : Status{StatusCode::NoContext, "no GL context is current on this thread"};
+  if (lost_) return lost();
+  if (!gl_.GetString(gl::VERSION)) { // in a context that is lost, too
+    if (gl_.GetError && gl_.GetError() == gl::CONTEXT_LOST) return lost();
+    return {StatusCode::NoContext, "no GL context is current on this thread"};
+  }
+  if (wasReset()) return lost();
+  if (number_ == 0 || holdsMarks()) return {};
+  if (gl::OwnErrors(gl_).contextLost()) return lost();
+  return {StatusCode::NoContext, "another GL context is current than the one that create() saw"};
 }
 
+// The context has been ours: if an object of ours is gone, all are.
 Status ContextWatch::finish(const Status& status) {
-  Status loss = lost();
-  return loss ? status : loss;
+  if (lost_ || wasReset() || (number_ != 0 && !gl_.IsVertexArray(array_.name()))) return lost();
+  return status;
 }
 
 Status checkFeedback(const gl::Functions& gl, const char* function) {

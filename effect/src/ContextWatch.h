@@ -1,7 +1,7 @@
-// Whether GL can be called at all: a context is current, and it is not lost.
+// Whether GL can be called at all: a context is current, the one that it was, and it is not lost.
 #pragma once
 
-#include "gl/Functions.h"
+#include "gl/Objects.h"
 
 #include <tyndall/tyndall.h>
 
@@ -11,17 +11,27 @@ class ContextWatch {
 public:
   explicit ContextWatch(const gl::Functions& gl) : gl_(gl) {}
 
-  /// Before a call's work: NoContext, ContextLost, or Ok. A context that was lost stays so.
+  /// Makes the current context the one to watch. Binds a vertex array: call it under a StateGuard.
+  void mark();
+
+  /// Before a call's work: NoContext (none, or another than the marked one), ContextLost, or Ok. A context that was
+  /// lost stays so. Asks for errors only where the context is not the one that it was.
   Status check();
 
   /// After it: what became of it, unless the context was lost meanwhile.
   Status finish(const Status& status);
 
 private:
+  bool holdsMarks() const;
+  bool wasReset() const;
   Status lost();
 
   const gl::Functions& gl_;
   bool lost_ = false;
+  // Objects of another context may have the same names: a vertex array is no other's, and a sampler keeps a number.
+  gl::VertexArray array_;
+  gl::Sampler sampler_;
+  gl::Int number_ = 0;
 };
 
 /// InvalidFrame while transform feedback is active, during which GL lets no other program be used.

@@ -26,9 +26,18 @@ void settleExtensions(gl::Functions& gl) {
     return gl.version >= version || extensions.count(extension) != 0;
   };
   if (!has(45, "GL_ARB_clip_control")) gl.ClipControl = nullptr;
+  if (!has(41, "GL_ARB_get_program_binary")) gl.GetProgramBinary = nullptr;
+  if (!has(43, "GL_KHR_debug")) gl.ObjectLabel = nullptr;
+  gl.parallelCompile = extensions.count("GL_KHR_parallel_shader_compile") != 0 ||
+                       extensions.count("GL_ARB_parallel_shader_compile") != 0;
   gl.stencilTexturing = has(43, "GL_ARB_stencil_texturing");
   if (!has(45, "GL_KHR_robustness"))
     gl.GetGraphicsResetStatus = has(45, "GL_ARB_robustness") ? gl.GetGraphicsResetStatusARB : nullptr;
+  if (!has(45, "GL_ARB_direct_state_access")) gl.GetTextureParameteriv = nullptr;
+  if (!has(44, "GL_ARB_multi_bind")) gl.BindTextures = nullptr;
+  if (!gl.BindTextures) gl.BindSamplers = nullptr;
+  gl.debugOutput = has(43, "GL_KHR_debug") && gl.PushDebugGroup && gl.PopDebugGroup;
+  gl.GetIntegerv(gl::MAX_CLIP_DISTANCES, &gl.clipDistances);
   gl::Int profile = 0;
   gl.GetIntegerv(gl::CONTEXT_PROFILE_MASK, &profile);
   gl.compatibility = (static_cast<gl::Bitfield>(profile) & gl::CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0;

@@ -1,51 +1,54 @@
-// The boxes of Frame::objects: those of meshes are fitted when first seen, and remembered; and what shape a view's last
-// frame saw them in.
+// The boxes of Frame::objects: those of meshes are fitted once their vertices have come back, and remembered; and in
+// what version a view's last frame saw them.
 #pragma once
 
-#include "gl/Functions.h"
+#include "MeshReader.h"
 
 #include <glm/glm.hpp>
+#include <string>
 #include <tyndall/tyndall.h>
 #include <vector>
 
 namespace tyndall {
 
-/// The meshes that a view's frames have named, in the shape that they had in its last frame: one that deforms covers
+/// The meshes that an eye's frames have named, in the version that they had in its last frame: one that deforms covers
 /// the box of that shape, too.
 class LastShapes {
 public:
   /// Null for a mesh that was not named.
-  const glm::dmat4* meshFromBox(const MeshVertices& mesh) const;
-  void set(const MeshVertices& mesh, const glm::dmat4& meshFromBox);
+  const MeshVertices* of(const MeshVertices& mesh) const;
+  void set(const MeshVertices& mesh);
   void clear() { shapes_.clear(); }
 
 private:
-  struct Shape {
-    MeshVertices mesh;
-    glm::dmat4 meshFromBox;
-  };
-  std::vector<Shape> shapes_;
+  std::vector<MeshVertices> shapes_;
 };
 
 class ObjectBoxes {
 public:
-  explicit ObjectBoxes(const gl::Functions& gl) : gl_(gl) {}
+  explicit ObjectBoxes(const gl::Functions& gl) : reader_(gl) {}
 
-  /// Makes boxes of the frame's objects, and enters their shapes. Without the last shape of one of them the frame
-  /// becomes one that compares all (Changes::Detect, no version). Reads buffers, for which it waits, and binds them:
-  /// call it under a StateGuard. Errors name the field: a buffer that does not exist, is mapped, is too short or holds
-  /// what is not finite.
+  /// Makes boxes of the frame's objects, and enters their shapes. While the box of one of them, as it is or as it was
+  /// in the last frame, is not known, a frame of Changes::Objects becomes one that compares all (Changes::Detect, no
+  /// version). Never waits. Binds buffers: call it under a StateGuard. Errors name the field: a buffer that does not
+  /// exist, is mapped, is too short or, found when its vertices have come, holds what is not finite.
   Status makeBoxes(Frame& frame, LastShapes& shapes);
+
+  /// GL memory held to read meshes.
+  std::uint64_t bytes() const { return reader_.bytes(); }
 
 private:
   struct Fitted {
     MeshVertices mesh;
     glm::dmat4 meshFromBox;
+    std::string fault; // of what it holds; empty if it can be fitted
   };
-  Status fit(const std::string& field, const MeshVertices& mesh, glm::dmat4& meshFromBox);
-  Status read(const std::string& field, const MeshVertices& mesh, std::vector<glm::vec3>& points) const;
+  Status place(Frame& frame, LastShapes& shapes);
+  Status find(const std::string& field, const MeshVertices& mesh, const Fitted*& found);
+  const Fitted* known(const MeshVertices& mesh);
+  void enter(const MeshReader::Mesh& mesh);
 
-  const gl::Functions& gl_;
+  MeshReader reader_;
   std::vector<Fitted> fitted_; // the one used last at the end
 };
 

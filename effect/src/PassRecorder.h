@@ -3,92 +3,92 @@
 
 #include "gl/Objects.h"
 
+#include <array>
 #include <chrono>
 #include <tyndall/tyndall.h>
 #include <vector>
 
 namespace tyndall {
 
+/// What the fragments that a pass writes say, to be read in later frames.
+enum class Count {
+  None,
+  Marched, ///< each marches one ray
+  Served,  ///< those of the image that are not among them are marched by themselves
+  FixedUp, ///< each is one of those
+  Into,    ///< what its caller makes of them
+};
+
+struct Counting {
+  Count what = Count::None;
+  std::uint64_t pixels = 0;         ///< Served: of the image
+  const gl::Query* query = nullptr; ///< Into: the caller's
+};
+
+/// Nothing in it waits for the GPU but what says so, and it makes GL objects only while frames have more passes than
+/// those before.
 class PassRecorder {
 public:
   PassRecorder(const gl::Functions& gl, PassTiming timing) : gl_(gl), timing_(timing) {}
 
   void beginFrame();
   void skip(const std::string& pass, const std::string& why);
-  void countFixup(std::uint64_t pixels) { fixupPixels_ += pixels; }
-  std::uint64_t fixupPixels() const { return fixupPixels_; }
   void countMarched(std::uint64_t rays) { marched_ += rays; }
-  void countVisits(double perRay) { visitsPerRay_ = perRay; }
-  double visitsPerRay() const { return visitsPerRay_; }
-  /// Rays integrated in the frame; waits for the queries of runCounted().
-  std::uint64_t marched();
 
-  /// Runs a pass: times it and, where the context has debug groups, names it for GL debuggers.
+  /// False in a frame during which a query of the engine's own is under way: GL has but one at a time.
+  bool counts() const { return counts_; }
+
+  /// Runs a pass: times it, counts its fragments if the frame counts() and, where the context has debug groups, names
+  /// it for GL debuggers.
   template <typename Pass>
-  bool run(const std::string& name, Pass&& pass) {
-    begin(name);
+  bool run(const std::string& name, Pass&& pass, const Counting& counting = {}) {
+    begin(name, counting);
     const bool ok = pass();
-    end();
+    end(counting);
     return ok;
   }
 
-  /// Runs a pass of which every fragment that is not discarded marches one ray. Not counted while a query of the
-  /// engine's own is under way.
-  template <typename Pass>
-  bool runCounted(const std::string& name, Pass&& pass) {
-    return run(name, [&] {
-      beginCount();
-      const bool ok = pass();
-      endCount();
-      return ok;
-    });
-  }
-
-  /// Draws, and returns how many fragments were written, for which it waits; 0 while a query of the engine's own is
-  /// under way.
-  template <typename Draw>
-  std::uint64_t countWritten(Draw&& draw) {
-    beginCount();
-    draw();
-    endCount();
-    return takeCount();
-  }
-
-  /// Draws, and has a query count how many fragments were written, without waiting for it. False while a query of the
-  /// engine's own is under way; draws all the same.
-  template <typename Draw>
-  bool countInto(const gl::Query& query, Draw&& draw) {
-    gl::Int busy = 0;
-    gl_.GetQueryiv(gl::SAMPLES_PASSED, gl::CURRENT_QUERY, &busy);
-    if (busy == 0) gl_.BeginQuery(gl::SAMPLES_PASSED, query.name());
-    draw();
-    if (busy == 0) gl_.EndQuery(gl::SAMPLES_PASSED);
-    return busy == 0;
-  }
-
+  /// Of the frame; wait for its queries.
+  std::uint64_t fixupPixels();
+  std::uint64_t marched();
   /// Passes of the frame in order; waits for timer queries.
   std::vector<PassStatistics> collect();
 
 private:
   struct Timed {
     PassStatistics statistics;
-    gl::Query from, to;
+    gl::Uint from = 0, to = 0; // queries
   };
-  void begin(const std::string& name);
-  void end();
-  void beginCount();
-  void endCount();
-  std::uint64_t takeCount();
+  struct Counted {
+    Counting counting;
+    gl::Uint query = 0;
+  };
+  /// Queries of one frame; used again when the GPU is done with them, some frames later.
+  struct Pool {
+    std::vector<gl::Query> queries;
+    std::size_t used = 0;
+  };
+  struct Pools {
+    Pool counts, times; // a query stays of the kind that it was first used as
+  };
+
+  void begin(const std::string& name, const Counting& counting);
+  void end(const Counting& counting);
+  gl::Uint nextQuery(Pool& pool);
+  Pools& pools() { return pools_[frame_ % pools_.size()]; }
+  std::uint64_t resultOf(gl::Uint query) const;
+  void collectCounts();
 
   const gl::Functions& gl_;
   PassTiming timing_;
   std::chrono::steady_clock::time_point start_;
+  std::array<Pools, 3> pools_; // of the last frames: as many as an engine has under way
+  std::size_t frame_ = 0;
+  bool counts_ = true;
   std::vector<Timed> passes_;
+  std::vector<Counted> counted_; // not read yet
   std::uint64_t fixupPixels_ = 0;
   std::uint64_t marched_ = 0;
-  double visitsPerRay_ = 0;
-  std::vector<gl::Query> counts_;
-  bool counting_ = false;
 };
 
 } // namespace tyndall

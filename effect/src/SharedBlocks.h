@@ -1,20 +1,33 @@
 // glsl/shared.glsl as C++ sees it.
 #pragma once
 
+#include <cstddef>
 #include <glm/glm.hpp>
 
 namespace tyndall::blocks {
 
-using glm::ivec4;
+using glm::ivec2;
 using glm::mat4;
+using glm::vec3;
 using glm::vec4;
 
 #define UNIFORM_BLOCK(name) struct name
 #include "shared.glsl"
 #undef UNIFORM_BLOCK
 
-static_assert(sizeof(FrameBlock) == 16 * (3 + 1 + 1 + 1 + 2 * MAX_CONSTITUENTS + 2), "std140 has no padding here");
-static_assert(sizeof(LightBlock) == 16 * (9 + 8 * MAX_SHADOW_VIEWS), "std140 has no padding here");
-static_assert(sizeof(EpipolarBlock) == 16 * 12, "std140 has no padding here");
+// std140 adds no padding of its own: sizes are those of the rows, and what must begin a row does.
+static_assert(sizeof(FrameBlock) == 16 * (3 + 1 + 1 + 1 + 2 * MAX_CONSTITUENTS + 2));
+static_assert(sizeof(MapView) == 16 * 8);
+static_assert(sizeof(LightBlock) == 16 * 7 + sizeof(MapView) * MAX_SHADOW_VIEWS);
+static_assert(sizeof(EpipolarBlock) == 16 * 12);
+constexpr bool beginsRow(std::size_t offset) { return offset % 16 == 0; }
+constexpr bool isAligned(std::size_t offset) { return offset % 8 == 0; } // a pair
+static_assert(beginsRow(offsetof(FrameBlock, extinction)) && beginsRow(offsetof(FrameBlock, phaseWeight)));
+static_assert(beginsRow(offsetof(FrameBlock, phaseShape)) && isAligned(offsetof(FrameBlock, frameSize)));
+static_assert(beginsRow(offsetof(MapView, margin)) && beginsRow(offsetof(MapView, curveDepth)));
+static_assert(beginsRow(offsetof(LightBlock, lightDirection)) && beginsRow(offsetof(LightBlock, lightPosition)));
+static_assert(isAligned(offsetof(LightBlock, shadowMapSize)) && beginsRow(offsetof(LightBlock, boundary)));
+static_assert(beginsRow(offsetof(LightBlock, shadowViews)) && beginsRow(offsetof(EpipolarBlock, border)));
+static_assert(beginsRow(offsetof(EpipolarBlock, storedScale)));
 
 } // namespace tyndall::blocks

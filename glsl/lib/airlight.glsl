@@ -86,7 +86,7 @@ struct Airlight {
 // to the lamp at its nearest, a quarter of it where a cone's edge may lie in the span.
 float evenLength(Airlight light, float most) {
   float sigma = max(extinction.r, max(extinction.g, extinction.b));
-  return min(0.5 * most / max(sigma, 1e-30), (LIGHT_KIND == 2 ? 0.25 : 1.0) * most * sqrt(light.height2));
+  return min(0.5 * most / max(sigma, 1e-30), (LIGHT_KIND == 2 && outerCosine >= 0.0 ? 0.25 : 1.0) * most * sqrt(light.height2));
 }
 
 #if LIGHT_KIND == 2
@@ -98,8 +98,8 @@ vec2 coneInterval(Airlight light, vec2 cosSinSquared) {
   const vec2 kNone = vec2(1.0, -1.0);
   const float kFar = 1e30;
   float b = light.axisFoot, v = light.axisSlope, c = cosSinSquared.x;
-  if (c < 1e-4) { // a half-space: both nappes touch and the squared form has a double root
-    if (v == 0.0) return b > 0.0 ? vec2(-kFar, kFar) : kNone;
+  if (c < 1e-4) { // a half-space: both nappes touch and the squared form has a double root; c < 0: a point light's open cone
+    if (v == 0.0 || c < 0.0) return b > 0.0 || c < 0.0 ? vec2(-kFar, kFar) : kNone;
     return v > 0.0 ? vec2(-b / v, kFar) : vec2(-kFar, -b / v);
   }
   bool narrow = cosSinSquared.y < 0.5;
@@ -122,20 +122,20 @@ vec2 coneInterval(Airlight light, vec2 cosSinSquared) {
 
 // Falloff of KHR_lights_punctual at t, r: ((cos - cos outer) / (cos inner - cos outer))^2 in [0, 1].
 float coneFalloff(Airlight light, float t, float r) {
-  if (cone.z == 0.0) return 1.0; // a hard edge: the span ends at it
+  if (falloffScale == 0.0) return 1.0; // a hard edge: the span ends at it
   float cosine = (light.axisFoot + t * light.axisSlope) / r;
-  float difference = cosine - cone.x;
-  if (coneSinSquared.x < 0.5) {
+  float difference = cosine - outerCosine;
+  if (outerSineSquared < 0.5) {
     vec3 sine = (light.sineFoot + t * light.sineSlope) / r;
-    difference = (coneSinSquared.x - dot(sine, sine)) / (cosine + cone.x);
+    difference = (outerSineSquared - dot(sine, sine)) / (cosine + outerCosine);
   }
-  float falloff = clamp(difference * cone.z, 0.0, 1.0);
+  float falloff = clamp(difference * falloffScale, 0.0, 1.0);
   return falloff * falloff;
 }
 #endif
 
 Airlight airlightOf(Ray ray) {
-  vec3 toLight = lightPosition.xyz - ray.origin;
+  vec3 toLight = lightPosition - ray.origin;
   Airlight light;
   light.foot = dot(toLight, ray.direction);
   vec3 normal = cross(toLight, ray.direction);
@@ -143,19 +143,19 @@ Airlight airlightOf(Ray ray) {
   light.height2 = max(dot(normal, normal), max(1e-13 * dot(toLight, toLight), 1e-36));
 #if LIGHT_KIND == 2
   vec3 footFromLight = ray.direction * light.foot - toLight;
-  light.axisFoot = dot(lightDirection.xyz, footFromLight);
-  light.axisSlope = dot(lightDirection.xyz, ray.direction);
-  light.sineFoot = cross(lightDirection.xyz, footFromLight);
-  light.sineSlope = cross(lightDirection.xyz, ray.direction);
-  light.axisDistance = dot(lightDirection.xyz, cross(light.sineFoot, light.sineSlope));
-  light.lit = light.foot + coneInterval(light, vec2(cone.x, coneSinSquared.x));
-  light.inner = light.foot + coneInterval(light, vec2(cone.y, coneSinSquared.y));
+  light.axisFoot = dot(lightDirection, footFromLight);
+  light.axisSlope = dot(lightDirection, ray.direction);
+  light.sineFoot = cross(lightDirection, footFromLight);
+  light.sineSlope = cross(lightDirection, ray.direction);
+  light.axisDistance = dot(lightDirection, cross(light.sineFoot, light.sineSlope));
+  light.lit = light.foot + coneInterval(light, vec2(outerCosine, outerSineSquared));
+  light.inner = light.foot + coneInterval(light, vec2(innerCosine, innerSineSquared));
 #endif
   return light;
 }
 
 void litRange(Airlight light, inout float s0, inout float s1) {
-  float range = lightPosition.w;
+  float range = lightRange;
   if (range > 0.0) {
     float halfChord = sqrt(max(0.0, range * range - light.height2));
     if (halfChord == 0.0) s1 = s0;
@@ -211,12 +211,12 @@ Spectrum pointPiece(Airlight light, float s0, float s1) {
   const float longPanel = 1.0; // the falloff's poles at |Im x| = pi/2 are of fourth order
   // Along a chord of the cone the falloff is a bump: two nodes resolve it only over a small part of the chord and of the
   // soft edge (len bounds the angle that a panel covers).
-  float shortPanel = cone.z == 0.0 ? 0.2 : min(cone.w, 0.05 * (light.lit.y - light.lit.x) / max(r0, r1));
+  float shortPanel = falloffScale == 0.0 ? 0.2 : min(falloffPanel, 0.05 * (light.lit.y - light.lit.x) / max(r0, r1));
 #else
   const float longPanel = 2.0, shortPanel = 0.2;
 #endif
   float start = s0 + r0;
-  vec3 sigma = extinction.rgb;
+  vec3 sigma = extinction;
   Spectrum sum = Spectrum(0.0);
   float P = P0, N = N0;
   for (int i = 0; i < kMaxPanels && remaining > 0.0; ++i) {

@@ -7,18 +7,18 @@ struct Ray {
 
 // The ray through a window position (pixels, as gl_FragCoord.xy).
 Ray cameraRay(vec2 windowPosition) {
-  vec2 p = windowPosition - 0.5 * vec2(counts.zw);
+  vec2 p = windowPosition - 0.5 * vec2(frameSize);
   vec3 far = farPoint[0].xyz + p.x * farPoint[1].xyz + p.y * farPoint[2].xyz;
-  if (depthToT.z != 0.0) return Ray(far + nearStep.xyz, normalize(-nearStep.xyz));
+  if (isOrthographic != 0) return Ray(far + nearStep.xyz, normalize(-nearStep.xyz));
   return Ray(vec3(0.0), normalize(far));
 }
 
 // Distance along that ray to the surface of a depth value; the sky's where depth is at its far value, -1 where it is NaN.
 float rayEnd(vec2 windowPosition, float depth) {
-  float t = depthToT.x + depthToT.y * depth;
-  if (!(t > 0.0)) return t <= 0.0 ? depthToT.w : -1.0;
-  if (depthToT.z != 0.0) return max(0.0, 1.0 - t) * length(nearStep.xyz);
-  vec2 p = windowPosition - 0.5 * vec2(counts.zw);
+  float t = depthOffset + depthScale * depth;
+  if (!(t > 0.0)) return t <= 0.0 ? skyEnd : -1.0;
+  if (isOrthographic != 0) return max(0.0, 1.0 - t) * length(nearStep.xyz);
+  vec2 p = windowPosition - 0.5 * vec2(frameSize);
   vec4 far = farPoint[0] + p.x * farPoint[1] + p.y * farPoint[2];
   return length(far.xyz) / (far.w + t * nearStep.w);
 }

@@ -12,15 +12,15 @@ struct CurveNodes {
 };
 
 CurveNodes curveNodes(ivec3 texel, int i) {
-  uvec4 stored = texelFetch(curves, ivec3(texel.xy, texel.z * curveCounts.w + i), 0);
-  if (curveCounts.z != 0) return CurveNodes(vec4(stored >> 16u) * (1.0 / 65535.0), vec4(stored & 0xFFFFu) * (1.0 / 65535.0));
+  uvec4 stored = texelFetch(curves, ivec3(texel.xy, texel.z * texelsPerCurve + i), 0);
+  if (curvesPacked != 0) return CurveNodes(vec4(stored >> 16u) * (1.0 / 65535.0), vec4(stored & 0xFFFFu) * (1.0 / 65535.0));
   vec4 nodes = uintBitsToFloat(stored);
   return CurveNodes(nodes.xzzz, nodes.ywww);
 }
 
 // Where a curve begins to fall, where it ends, and what passes from there on.
 vec3 curveEnds(ivec3 texel) {
-  CurveNodes last = curveNodes(texel, curveCounts.w - 1);
+  CurveNodes last = curveNodes(texel, texelsPerCurve - 1);
   return vec3(curveNodes(texel, 0).depths.x, last.depths.w, last.passed.w);
 }
 
@@ -37,7 +37,7 @@ void addLine(vec2 a, vec2 b, float low, float high, inout vec2 sum) {
 // Mean transmittance between two depths, low < high, and its first moment (from -1 to 1).
 vec2 curveBetween(ivec3 texel, float low, float high) {
   vec2 sum = vec2(0.0), before = vec2(-1e9, 1.0);
-  for (int i = 0; i < curveCounts.w && before.x < high; ++i) {
+  for (int i = 0; i < texelsPerCurve && before.x < high; ++i) {
     CurveNodes nodes = curveNodes(texel, i);
     for (int k = 0; k < 4; ++k) {
       vec2 node = vec2(nodes.depths[k], nodes.passed[k]);
@@ -58,13 +58,13 @@ struct CurveLine {
 };
 
 CurveLine curveLine(ViewSegment segment, bool alongX, bool mirrored) {
-  vec2 scale = float(curveCounts.x) / vec2(viewCounts.zw), p = segment.p0.xy * scale, d = segment.p1.xy * scale - p;
+  vec2 scale = float(curvesSize) / vec2(shadowMapSize), p = segment.p0.xy * scale, d = segment.p1.xy * scale - p;
   if (!alongX) {
     p = p.yx;
     d = d.yx;
   }
   if (mirrored) {
-    p.x = float(curveCounts.x) - p.x;
+    p.x = float(curvesSize) - p.x;
     d.x = -d.x;
   }
   return CurveLine(alongX, mirrored, p.x, max(d.x, 0.0), p.y, d.y, segment.view);
@@ -72,7 +72,7 @@ CurveLine curveLine(ViewSegment segment, bool alongX, bool mirrored) {
 
 // The two texels of a cell beside a line, and the weight of the second.
 ivec3 cellTexel(bool alongX, bool mirrored, int view, int cell, int across) {
-  ivec2 at = clamp(ivec2(mirrored ? curveCounts.x - 1 - cell : cell, across), ivec2(0), ivec2(curveCounts.x - 1));
+  ivec2 at = clamp(ivec2(mirrored ? curvesSize - 1 - cell : cell, across), ivec2(0), ivec2(curvesSize - 1));
   return ivec3(alongX ? at : at.yx, view);
 }
 
@@ -105,7 +105,7 @@ struct CurveRow {
   int row;
 } curveRow;
 
-float evenStretch(Airlight light) { return evenLength(light, spread.y); }
+float evenStretch(Airlight light) { return evenLength(light, averageThreshold); }
 #else
 float evenStretch(Airlight light) { return evenLength(light, 0.05); }
 #endif
@@ -122,7 +122,7 @@ vec2 cellPassed(CurveLine line, int cell, float u0, float u1, float depth0, floa
 // The next stretch from u on that is dimmed, up to `end`; from: where it begins, `end` if there is none.
 Dimmed nextDimmed(Airlight light, ViewSegment segment, CurveLine line, float u, float end) {
   Dimmed found = Dimmed(end, end, vec2(1.0, 0.0));
-  int cells = curveCounts.x, cell = clamp(int(floor(line.begin + u * line.extent)), 0, cells - 1), level = 0, base = 0;
+  int cells = curvesSize, cell = clamp(int(floor(line.begin + u * line.extent)), 0, cells - 1), level = 0, base = 0;
   float even = evenStretch(light), s = distanceAt(segment, u), depth = linearDepthAt(segment, s);
   bool walking = u < end;
   for (int guard = 0; guard < 8 * cells && walking; ++guard) {
@@ -180,7 +180,7 @@ Light curvedLight(Airlight light, ViewSegment segment, float u0, float u1, Visib
 #ifdef ROW_CURVES
   CurveLine line = curveLine(segment, curveRow.alongX, curveRow.mirrored);
 #else
-  vec2 d = (segment.p1.xy - segment.p0.xy) / vec2(viewCounts.zw);
+  vec2 d = (segment.p1.xy - segment.p0.xy) / vec2(shadowMapSize);
   bool alongX = abs(d.x) >= abs(d.y);
   CurveLine line = curveLine(segment, alongX, (alongX ? d.x : d.y) < 0.0);
 #endif

@@ -5,16 +5,16 @@ vec3 lightOf(vec3 texel) {
 #if MONOCHROME && !GLASS
   return texel.rrr;
 #else
-  return texel / stored.rgb;
+  return texel / storedScale;
 #endif
 }
 
 // Radiance over what a texel of light stands for, along a ray.
 vec3 radianceUnit(Ray ray) {
 #if LIGHT_KIND == 0
-  return lightColour.rgb * vec3(phaseAlong(ray));
+  return lightColour * vec3(phaseAlong(ray));
 #else
-  return lightColour.rgb / lampSine(ray);
+  return lightColour / lampSine(ray);
 #endif
 }
 

@@ -19,22 +19,22 @@ struct LowRankRay {
 void startLowRank(Ray ray, int slice) {
   Airlight light = airlightOf(ray);
 #if LIGHT_KIND == 0
-  lowRank.scale = length(cross(lightDirection.xyz, ray.direction));
-  float place = (log(max(lowRank.scale, 1e-30)) - lowRankRay.x) * lowRankRay.y;
+  lowRank.scale = length(cross(lightDirection, ray.direction));
+  float place = (log(max(lowRank.scale, 1e-30)) - lowRankRayBegin) * lowRankRayScale;
   lowRank.valid = place >= -0.01;
   lowRank.factor = light.phase / max(lowRank.scale, 1e-30);
 #else
-  float beta = atan(sqrt(light.height2), light.foot), place = (beta - lowRankRay.x) * lowRankRay.y;
+  float beta = atan(sqrt(light.height2), light.foot), place = (beta - lowRankRayBegin) * lowRankRayScale;
   lowRank.scale = 1.5707963267948966 - beta;
   lowRank.valid = true;
   lowRank.factor = Spectrum(inversesqrt(light.height2));
 #endif
-  lowRank.set = lowRankLight.y != 0.0 ? slice : 0;
+  lowRank.set = lowRankPerSlice != 0 ? slice : 0;
   int low = clamp(int(place), 0, kLowRankGrid - 2);
   float f = clamp(place - float(low), 0.0, 1.0);
   for (int i = 0; i < kMostTerms; ++i) {
     lowRank.terms[i] = Spectrum(0.0);
-    if (i < int(lowRankRay.z))
+    if (i < lowRankTerms)
       lowRank.terms[i] = mix(SPECTRUM(texelFetch(lowRankRays, ivec2(low, i), 0)), SPECTRUM(texelFetch(lowRankRays, ivec2(low + 1, i), 0)), f);
   }
 }
@@ -44,9 +44,9 @@ void startLowRank(Ray ray, int slice) {
 // cell's length.
 vec3 placeOfLight(float x) {
   float last = float(kLowRankGrid - 1);
-  x = clamp(x, 0.0, lowRankLight.x);
-  float cell = clamp(floor(last * pow(x / lowRankLight.x, 1.0 / 3.0)), 0.0, last - 1.0);
-  float unit = lowRankLight.x / (last * last * last), begin = cell * cell * cell * unit;
+  x = clamp(x, 0.0, lowRankLightExtent);
+  float cell = clamp(floor(last * pow(x / lowRankLightExtent, 1.0 / 3.0)), 0.0, last - 1.0);
+  float unit = lowRankLightExtent / (last * last * last), begin = cell * cell * cell * unit;
   float len = (3.0 * cell * (cell + 1.0) + 1.0) * unit;
   return vec3(cell, clamp((x - begin) / len, 0.0, 1.0), len);
 }
@@ -56,9 +56,9 @@ vec3 lightPlace(Airlight light, float s) { return placeOfLight(s * lowRank.scale
 #else
 // The same of a light ray at an angle to the line from the lamp to the eye.
 vec3 placeOfLight(float gamma) {
-  float last = float(kLowRankGrid - 1), at = clamp((gamma - lowRankLight.z) / lowRankLight.x * last, 0.0, last);
+  float last = float(kLowRankGrid - 1), at = clamp((gamma - lowRankLightBegin) / lowRankLightExtent * last, 0.0, last);
   float cell = min(floor(at), last - 1.0);
-  return vec3(cell, at - cell, lowRankLight.x / last);
+  return vec3(cell, at - cell, lowRankLightExtent / last);
 }
 
 vec3 lightPlace(Airlight light, float s) {
@@ -81,7 +81,7 @@ Spectrum lowRankAirlight(Airlight light, float s0, float s1) {
   vec3 from = lightPlace(light, s0), to = lightPlace(light, s1);
   Spectrum sum = Spectrum(0.0);
   for (int i = 0; i < kMostTerms; ++i)
-    if (i < int(lowRankRay.z)) sum += lowRank.terms[i] * (prefixSum(i, to) - prefixSum(i, from));
+    if (i < lowRankTerms) sum += lowRank.terms[i] * (prefixSum(i, to) - prefixSum(i, from));
   return lowRank.factor * sum;
 }
 

@@ -17,7 +17,7 @@ vec3 transmittanceTo(float s) { return vec3(exp(-SPECTRUM(extinction) * s)); }
 Spectrum phaseTowardsEye(float oneMinusCos, float onePlusCos) {
   float cosSquared = 0.25 * (onePlusCos - oneMinusCos) * (onePlusCos - oneMinusCos);
   Spectrum sum = Spectrum(0.0);
-  for (int k = 0; k < counts.x; ++k) {
+  for (int k = 0; k < constituentCount; ++k) {
     vec4 shape = phaseShape[k];
     float d = shape.x + shape.y * (shape.w > 0.0 ? oneMinusCos : onePlusCos);
     float r = inversesqrt(d);
@@ -29,6 +29,6 @@ Spectrum phaseTowardsEye(float oneMinusCos, float onePlusCos) {
 // The same of a directional light along a camera ray. theta lies between the light's travel and the direction to the eye:
 // cos = -dot(l, v), |l + v|^2 / 2 = 1 - cos.
 Spectrum phaseAlong(Ray ray) {
-  vec3 sum = lightDirection.xyz + ray.direction, difference = lightDirection.xyz - ray.direction;
+  vec3 sum = lightDirection + ray.direction, difference = lightDirection - ray.direction;
   return phaseTowardsEye(0.5 * dot(sum, sum), 0.5 * dot(difference, difference));
 }

@@ -1,5 +1,5 @@
 // The light of [from, end] of a camera ray as a draw for some shadow views sees it: each one's own part along the slice's row and,
-// in the draw that has it (march.z), what lies outside all views.
+// in the draw that has it (bringsOutside), what lies outside all views.
 
 #if SHADOW_VIEWS > 0 && !defined(SKIPS_NODES)
 Light ownedLight(Airlight light, ViewSegment segment, int slice) { return rowLight(light, segment, slice); }
@@ -7,9 +7,9 @@ Light ownedLight(Airlight light, ViewSegment segment, int slice) { return rowLig
 
 Light rowShadowedLight(Ray ray, float from, float end, int slice) {
   Airlight light = airlightOf(ray);
-  float s0 = from, s1 = min(end, extinction.w);
+  float s0 = from, s1 = min(end, visibleEnd);
   litRange(light, s0, s1);
-  return shadowedLight(light, ray, s0, s1, march.xy, march.z != 0, slice);
+  return shadowedLight(light, ray, s0, s1, ivec2(firstView, drawnViews), bringsOutside != 0, slice);
 }
 
 #include "lib/stored.glsl"

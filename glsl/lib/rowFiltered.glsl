@@ -14,7 +14,7 @@ Visibility texelVisibility(RowLine line, RowWalk walk, ViewSegment segment, inou
   Line still;
   still.origin = vec3(p, segment.p0.z);
   still.slope = vec3(0.0, 0.0, segment.p1.z - segment.p0.z);
-  ivec2 cell = clamp(ivec2(floor(p)), ivec2(FILTER_BILINEAR == 1 ? -1 : 0), viewCounts.zw - 1);
+  ivec2 cell = clamp(ivec2(floor(p)), ivec2(FILTER_BILINEAR == 1 ? -1 : 0), shadowMapSize - 1);
   return pieceVisibility(still, cell, segment.view, walk.u, u);
 }
 
@@ -58,7 +58,7 @@ Light rowLight(Airlight light, ViewSegment segment, int slice) {
       int averageEnd = 0, average = 0, nodeEnd;
       float found = walkNodes(line, walk, state, averageEnd, average);
       nodeEnd = ((walk.index >> 4) + 1) << 4;
-      bool taking = grid.w > 0 && found == kMixed, groupAveraged = false;
+      bool taking = treeLevels > 0 && found == kMixed, groupAveraged = false;
       while (taking) taking = takeGroup(line, walk, state, groupAveraged) && walk.index < nodeEnd;
       done = walk.index > line.last || guard <= 0;
       groupAveraged = groupAveraged && !done && walk.index < nodeEnd;

@@ -3,9 +3,11 @@
 //
 // Row textures hold the rows of a draw's shadow views above one another, one a slice each. At y:
 #if SHADOW_VIEWS == 2
-int viewOfRow(int y) { return march.x + y / grid.x; }
-int sliceOfRow(int y) { return y % grid.x; }
-int rowOf(int view, int slice) { return (view - march.x) * grid.x + slice; }
+// Floats divide faster than integers, and exactly where they are halfway between the results' ends.
+int drawnViewOfRow(int y) { return int((float(y) + 0.5) / float(sliceCount)); }
+int viewOfRow(int y) { return firstView + drawnViewOfRow(y); }
+int sliceOfRow(int y) { return y - sliceCount * drawnViewOfRow(y); }
+int rowOf(int view, int slice) { return (view - firstView) * sliceCount + slice; }
 #else
 int viewOfRow(int y) { return 0; }
 int sliceOfRow(int y) { return y; }

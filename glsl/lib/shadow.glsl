@@ -46,21 +46,21 @@ void clipInterval(float c, float d, inout float s0, inout float s1) {
 // The interval of the ray inside a view's side planes, or beyond them by no more than rounding; beforeNear: the part between the
 // light and the near plane, else the part from the near plane on. Empty if y <= x.
 vec2 viewInterval(int view, Ray ray, float s0, float s1, bool beforeNear) {
-  vec4 a = texelFromCamera[view] * vec4(ray.origin, 1.0), b = texelFromCamera[view] * vec4(ray.direction, 0.0);
-  vec2 size = vec2(viewCounts.zw);
-  vec4 margin = viewMargin[view];
+  vec4 a = shadowViews[view].texelFromCamera * vec4(ray.origin, 1.0), b = shadowViews[view].texelFromCamera * vec4(ray.direction, 0.0);
+  vec2 size = vec2(shadowMapSize);
+  vec4 margin = shadowViews[view].margin;
   clipInterval(a.x + margin.x, b.x + margin.z, s0, s1);
   clipInterval(a.y + margin.y, b.y + margin.w, s0, s1);
   clipInterval(size.x * a.w - a.x + margin.x, size.x * b.w - b.x + margin.z, s0, s1);
   clipInterval(size.y * a.w - a.y + margin.y, size.y * b.w - b.y + margin.w, s0, s1);
-  float c = a.z - viewDepth[view].x * a.w, d = b.z - viewDepth[view].x * b.w;
+  float c = a.z - shadowViews[view].nearDepth * a.w, d = b.z - shadowViews[view].nearDepth * b.w;
   clipInterval(beforeNear ? -c : c, beforeNear ? -d : d, s0, s1);
-  if (viewDepth[view].w == 0.0) clipInterval(viewDepth[view].y * a.w - a.z, viewDepth[view].y * b.w - b.z, s0, s1);
+  if (shadowViews[view].isOpen == 0) clipInterval(shadowViews[view].farDepth * a.w - a.z, shadowViews[view].farDepth * b.w - b.z, s0, s1);
   return vec2(s0, s1);
 }
 
 ViewSegment viewSegment(int view, Ray ray, float s0, float s1, vec2 share) {
-  vec4 a = texelFromCamera[view] * vec4(ray.origin, 1.0), b = texelFromCamera[view] * vec4(ray.direction, 0.0);
+  vec4 a = shadowViews[view].texelFromCamera * vec4(ray.origin, 1.0), b = shadowViews[view].texelFromCamera * vec4(ray.direction, 0.0);
   vec4 q0 = a + s0 * b, q1 = a + s1 * b;
   ViewSegment segment;
   segment.view = view;
@@ -74,8 +74,8 @@ ViewSegment viewSegment(int view, Ray ray, float s0, float s1, vec2 share) {
   segment.share = share;
 #endif
 #if CURVES
-  segment.curveDepth.x = dot(curveDepth[view].xyz, ray.origin + s0 * ray.direction) + curveDepth[view].w;
-  segment.curveDepth.y = dot(curveDepth[view].xyz, ray.origin + s1 * ray.direction) + curveDepth[view].w;
+  segment.curveDepth.x = dot(shadowViews[view].curveDepth.xyz, ray.origin + s0 * ray.direction) + shadowViews[view].curveDepth.w;
+  segment.curveDepth.y = dot(shadowViews[view].curveDepth.xyz, ray.origin + s1 * ray.direction) + shadowViews[view].curveDepth.w;
 #endif
   return segment;
 }
@@ -123,7 +123,7 @@ void startWalk(ViewSegment segment, out Line line, out Walk walk) {
   vec3 end = vec3(segment.p1.xy - kShift, segment.p1.z);
   line.slope = end - line.origin;
   line.direction = ivec2(line.slope.x < 0.0 ? -1 : 1, line.slope.y < 0.0 ? -1 : 1);
-  ivec2 highest = viewCounts.zw - 1;
+  ivec2 highest = shadowMapSize - 1;
   line.last = clamp(ivec2(floor(end.xy)), ivec2(kLowest), highest);
   walk.cell = clamp(ivec2(floor(line.origin.xy)), ivec2(kLowest), highest);
   ivec2 extent = abs(line.last - walk.cell);
@@ -207,7 +207,7 @@ Visibility pieceVisibility(Line line, ivec2 cell, int view, float u, inout float
   vec4 depth = cornerDepths(cell, view);
   uEnd = firstCrossing((depth - line.origin.z) * inverseDepth, u, uEnd);
 #if GLASS
-  ivec2 last = viewCounts.zw - 1, low = max(cell, ivec2(0)), high = min(cell + 1, last);
+  ivec2 last = shadowMapSize - 1, low = max(cell, ivec2(0)), high = min(cell + 1, last);
   vec3 tints[4] = vec3[4](paneTint(low, view), paneTint(ivec2(high.x, low.y), view), paneTint(ivec2(low.x, high.y), view),
                           paneTint(high, view));
   vec4 pane = cornerPanes(cell, view);

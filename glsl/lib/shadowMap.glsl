@@ -3,7 +3,7 @@
 
 #if SHADOW_ARRAY
 uniform sampler2DArray shadowMap;
-#define TEXEL(map, texel, view) texelFetch(map, ivec3(texel, viewLayer[view].x), 0)
+#define TEXEL(map, texel, view) texelFetch(map, ivec3(texel, shadowViews[view].layer), 0)
 #else
 uniform sampler2D shadowMap;
 #define TEXEL(map, texel, view) texelFetch(map, texel, 0)
@@ -21,14 +21,14 @@ uniform sampler2D glassDepth;
 // Depth stored in a texel, growing away from the light; a texel without a caster never blocks, nor does one that is not a number,
 // which makes comparisons false.
 float casterDepth(ivec2 texel, int view) {
-  float depth = viewDepth[view].z * TEXEL(shadowMap, texel, view).r;
-  return depth < viewDepth[view].y ? depth : 3e38;
+  float depth = shadowViews[view].depthSign * TEXEL(shadowMap, texel, view).r;
+  return depth < shadowViews[view].farDepth ? depth : 3e38;
 }
 
 #if GLASS
 // The same of the glass: one that is not a number has nothing behind it.
 float paneDepth(ivec2 texel, int view) {
-  float depth = viewDepth[view].z * TEXEL(glassDepth, texel, view).r;
+  float depth = shadowViews[view].depthSign * TEXEL(glassDepth, texel, view).r;
   return depth < 3e38 ? depth : 3e38;
 }
 // NaN and negative values count as black, values above 1 as clear.
@@ -40,7 +40,7 @@ vec3 paneTint(ivec2 texel, int view) {
 
 // The four texels around a cell (bilinear), clamped to the edge: low x low y, high x low y, low x high y, both high.
 vec4 cornerDepths(ivec2 cell, int view) {
-  ivec2 last = viewCounts.zw - 1;
+  ivec2 last = shadowMapSize - 1;
   ivec2 low = max(cell, ivec2(0)), high = min(cell + 1, last);
   return vec4(casterDepth(low, view), casterDepth(ivec2(high.x, low.y), view), casterDepth(ivec2(low.x, high.y), view),
               casterDepth(high, view));
@@ -48,7 +48,7 @@ vec4 cornerDepths(ivec2 cell, int view) {
 
 #if GLASS
 vec4 cornerPanes(ivec2 cell, int view) {
-  ivec2 last = viewCounts.zw - 1;
+  ivec2 last = shadowMapSize - 1;
   ivec2 low = max(cell, ivec2(0)), high = min(cell + 1, last);
   return vec4(paneDepth(low, view), paneDepth(ivec2(high.x, low.y), view), paneDepth(ivec2(low.x, high.y), view),
               paneDepth(high, view));

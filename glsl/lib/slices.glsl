@@ -16,7 +16,7 @@ vec2 samplePosition(vec4 ends, int samples, float index) {
 // The slice that runs through a window position, as a real number: slice i has the value i. Nothing divides by the
 // epipole's w: the line's direction at p is sign(w) (w p - e.xy), away from the light.
 float sliceCoordinate(vec2 p) {
-  vec2 d = epipole.w * (epipole.z * p - epipole.xy);
+  vec2 d = epipoleSign * (epipole.z * p - epipole.xy);
   vec2 target = mix(border.xy, border.zw, greaterThan(d, vec2(0.0)));
   vec2 steps = mix(vec2(3e38), (target - p) / d, notEqual(d, vec2(0.0)));
   bool throughX = steps.x < steps.y;
@@ -25,14 +25,14 @@ float sliceCoordinate(vec2 p) {
   // Arc length counter-clockwise from the low corner: bottom, right, top, left.
   float arc = throughX ? (d.x > 0.0 ? size.x + local.y : 2.0 * size.x + size.y + (size.y - local.y))
                        : (d.y > 0.0 ? size.x + size.y + (size.x - local.x) : local.x);
-  float along = arc - sliceMap.x;
-  along += along < 0.0 ? sliceMap.z : 0.0;
-  return along / sliceMap.y - 0.5;
+  float along = arc - slicesBegin;
+  along += along < 0.0 ? borderLength : 0.0;
+  return along / sliceWidth - 0.5;
 }
 
 // The two slices around a coordinate; with a closed border the last neighbours the first.
 ivec2 neighbourSlices(float coordinate) {
-  int low = int(floor(coordinate)), last = grid.x - 1;
-  if (sliceMap.w != 0.0) return ivec2((low + grid.x) % grid.x, (low + 1 + grid.x) % grid.x);
+  int low = int(floor(coordinate)), last = sliceCount - 1;
+  if (slicesClosed != 0) return ivec2((low + sliceCount) % sliceCount, (low + 1 + sliceCount) % sliceCount);
   return clamp(ivec2(low, low + 1), ivec2(0), ivec2(last));
 }

@@ -36,7 +36,7 @@ Average averageOf(vec4 stored) { return Average(stored.r, 2.0 * stored.g - 1.0);
 
 // Where to split: halfway between the bounds; what holds no caster counts as at the far plane.
 float splitOf(int view, float lowest, float highest) {
-  float far = viewDepth[view].y * rowCode.x + rowCode.y;
+  float far = shadowViews[view].farDepth * rowCodeScale + rowCodeOffset;
   return 0.5 * (lowest + min(highest, max(far, lowest)));
 }
 

@@ -9,8 +9,8 @@ float lampSine(Ray ray) {
 #if LIGHT_KIND == 0
   return 1.0;
 #else
-  if (epipole.w < 0.0) return 1.0; // behind the camera the inscatter stays finite
-  vec3 toLight = lightPosition.xyz - ray.origin, normal = cross(toLight, ray.direction);
+  if (epipoleSign < 0.0) return 1.0; // behind the camera the inscatter stays finite
+  vec3 toLight = lightPosition - ray.origin, normal = cross(toLight, ray.direction);
   float square = dot(toLight, toLight);
   return square > 0.0 ? sqrt(max(dot(normal, normal) / square, 1e-13)) : 1.0; // the floor of airlightOf
 #endif
@@ -21,7 +21,7 @@ vec3 storedLight(Light light, Ray ray) {
 #if MONOCHROME && !GLASS
   return vec3(light) * lampSine(ray);
 #else
-  return min(stored.rgb * vec3(light) * lampSine(ray), vec3(65504.0));
+  return min(storedScale * vec3(light) * lampSine(ray), vec3(65504.0));
 #endif
 }
 
@@ -30,7 +30,7 @@ vec3 storedLight(Light light, Ray ray) {
 float endCoordinate(Ray ray, float end) {
   float coordinate = log2(max(end, 1e-30));
 #if LIGHT_KIND != 0
-  vec3 toLight = lightPosition.xyz - ray.origin;
+  vec3 toLight = lightPosition - ray.origin;
   coordinate += atan(end - dot(toLight, ray.direction), max(length(cross(toLight, ray.direction)), 1e-30));
 #endif
   return coordinate;
@@ -42,14 +42,14 @@ const float kCoordinateSteps = 1280.0; // of a unit
 const int kHalfLeast = 113 << 10, kHalfCount = 30 << 10; // bits of the normal half floats as a float has them, >> 13
 
 float halfOfCoordinate(float coordinate) {
-  int code = int(clamp((coordinate - stored.w) * kCoordinateSteps + 0.5, 0.0, float(2 * kHalfCount - 1)));
+  int code = int(clamp((coordinate - leastCoordinate) * kCoordinateSteps + 0.5, 0.0, float(2 * kHalfCount - 1)));
   float size = intBitsToFloat((kHalfLeast + code % kHalfCount) << 13);
   return code < kHalfCount ? -size : size;
 }
 
 float coordinateOfHalf(float value) {
   int code = (floatBitsToInt(abs(value)) >> 13) - kHalfLeast + (value < 0.0 ? 0 : kHalfCount);
-  return float(code) / kCoordinateSteps + stored.w;
+  return float(code) / kCoordinateSteps + leastCoordinate;
 }
 
 vec4 storedWithCoordinate(vec3 light, float coordinate) {

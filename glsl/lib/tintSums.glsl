@@ -13,7 +13,7 @@ vec4 sumsBetween(sampler2D sums, int from, int to, int y) {
 
 // Light of the texels from one index to another, multiples of four, all behind panes and before casters.
 Light tintedLight(int row, int from, int to) {
-  int fours = (int(lowRankRay.z) + 3) / 4, rows = textureSize(tintRed, 0).y / fours;
+  int fours = (lowRankTerms + 3) / 4, rows = textureSize(tintRed, 0).y / fours;
   vec3 sum = vec3(0.0);
   for (int i = 0; i < fours; ++i) {
     int first = 4 * i, y = i * rows + row;

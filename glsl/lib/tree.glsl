@@ -4,7 +4,7 @@
 // rowDepths: texels / 4 x rows (lib/rows.glsl), RGBA: four depths, or, where more than the texels themselves decides (2x2 filter, glass),
 // the group's split and, in rowShares, its mean. rowTree: nodes x rows, RGBA: splits (lib/split.glsl) of 16 texels (level 2), then of 64, 256, ...
 // (levels 3, 4, ...). Level l of a row of T texels holds T / 4^l nodes, behind those of the levels below. Depths grow away
-// from the light and are coded (rowCode): 16-bit where the light's depth is linear, else float.
+// from the light and are coded (rowCodeScale): 16-bit where the light's depth is linear, else float.
 
 // For the debug view of the visits: nodes, groups of texels and single texels that the ray looked at.
 #ifdef COUNT_VISITS
@@ -48,7 +48,7 @@ struct RowWalk {
 };
 
 // Coded depth of the ray; nothing lies behind what a texel without a caster holds.
-float rowDepth(RowLine line, float u) { return min(line.depth + line.slope * u, rowCode.z); }
+float rowDepth(RowLine line, float u) { return min(line.depth + line.slope * u, emptyRowCode); }
 
 void startRow(Airlight light, ViewSegment segment, int slice, out RowLine line, out RowWalk walk) {
   vec4 row = rowLine(segment.view, slice);
@@ -68,15 +68,15 @@ void startRow(Airlight light, ViewSegment segment, int slice, out RowLine line, 
   line.firstWhole = int(ceil(line.begin));
   // The longest texel of a projection that may be a perspective one.
   float texel = (segment.s1 - segment.s0) * line.inverse * max(segment.w0 / segment.w1, segment.w1 / segment.w0);
-  line.evenLevel = min(int(floor(0.5 * log2(clamp(evenLength(light, spread.y) / max(texel, 1e-30), 1.0, 1e9)))), kMostEven);
+  line.evenLevel = min(int(floor(0.5 * log2(clamp(evenLength(light, averageThreshold) / max(texel, 1e-30), 1.0, 1e9)))), kMostEven);
 #ifdef TINT_SUMS
   line.tintSums = lowRank.valid;
 #if FADES
   line.tintSums = lowRank.valid && segment.share == vec2(1.0);
 #endif
 #endif
-  line.depth = segment.p0.z * rowCode.x + rowCode.y;
-  line.slope = (segment.p1.z - segment.p0.z) * rowCode.x;
+  line.depth = segment.p0.z * rowCodeScale + rowCodeOffset;
+  line.slope = (segment.p1.z - segment.p0.z) * rowCodeScale;
   walk.u = 0.0;
   walk.depth = rowDepth(line, 0.0);
 }
@@ -129,7 +129,7 @@ Average averageAt(int node, int row) {
 float walkNodes(RowLine line, inout RowWalk walk, float current, out int nodeEnd, out int average) {
   float found = kMixed;
   int level = 2, base = 0; // base: where the level begins
-  bool walking = grid.w > 0 && (walk.index & 15) == 0 && walk.index <= line.last;
+  bool walking = treeLevels > 0 && (walk.index & 15) == 0 && walk.index <= line.last;
   while (walking) {
     VISIT
     int node = walk.index >> (2 * level), next = (node + 1) << (2 * level);
@@ -143,15 +143,15 @@ float walkNodes(RowLine line, inout RowWalk walk, float current, out int nodeEnd
     average = base + node;
     if (found == current) {
       walk = RowWalk(next, u, end);
-      bool up = level < grid.w && (next & ((4 << (2 * level)) - 1)) == 0;
-      base += up ? grid.z >> (2 * level) : 0;
+      bool up = level < treeLevels && (next & ((4 << (2 * level)) - 1)) == 0;
+      base += up ? rowLength >> (2 * level) : 0;
       level += up ? 1 : 0;
       walking = walk.index <= line.last;
     } else {
       if (found == kMixed && isAverage(line, walk, level, next, end, split)) found = kAverage;
       walking = found == kMixed && level > 2;
       --level;
-      base -= walking ? grid.z >> (2 * level) : 0;
+      base -= walking ? rowLength >> (2 * level) : 0;
     }
   }
   return found;

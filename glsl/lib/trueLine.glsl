@@ -9,7 +9,7 @@ RowLine trueRow; // of the slice on one side of the ray
 // part of it.
 void skipNodes(Line line, Visibility current, inout Walk walk) {
   walk.stop = 2.0;
-  if (grid.w == 0) return;
+  if (treeLevels == 0) return;
   float state = current == Visibility(1.0) ? 1.0 : current == Visibility(0.0) ? 0.0 : -1.0;
   float extent = trueRow.inverse > 0.0 ? 1.0 / trueRow.inverse : 0.0;
   RowWalk at = RowWalk(clamp(int(floor(trueRow.begin + walk.u * extent)), 0, trueRow.last), walk.u, rowDepth(trueRow, walk.u));
@@ -21,14 +21,14 @@ void skipNodes(Line line, Visibility current, inout Walk walk) {
     float found = boundsVisibility(at.depth, rowDepth(trueRow, u), texelFetch(rowTree, ivec2(base + node, trueRow.row), 0).rg);
     if (found == state) {
       advanceRow(trueRow, at, next, u);
-      bool up = level < grid.w && (next & ((4 << (2 * level)) - 1)) == 0;
-      base += up ? grid.z >> (2 * level) : 0;
+      bool up = level < treeLevels && (next & ((4 << (2 * level)) - 1)) == 0;
+      base += up ? rowLength >> (2 * level) : 0;
       level += up ? 1 : 0;
       walking = at.index <= trueRow.last;
     } else {
       walking = found == kMixed && level > 1;
       --level;
-      base -= walking ? grid.z >> (2 * level) : 0;
+      base -= walking ? rowLength >> (2 * level) : 0;
     }
   }
   if (at.u > walk.u) enterCell(line, walk, at.u);

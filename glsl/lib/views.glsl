@@ -20,24 +20,24 @@ const int kMostPieces = (4 + kCornerSteps) * kFadeSteps * kMostViews;
 // The part of [s0, s1] where a view has all the weight, away from its sides by its fade and, unless it is open there, from
 // its far plane. Empty if y <= x.
 vec2 wholeInterval(int view, Ray ray, float s0, float s1) {
-  vec4 a = texelFromCamera[view] * vec4(ray.origin, 1.0), b = texelFromCamera[view] * vec4(ray.direction, 0.0);
-  vec2 inset = fade.x * vec2(viewCounts.zw), end = vec2(viewCounts.zw) - inset;
+  vec4 a = shadowViews[view].texelFromCamera * vec4(ray.origin, 1.0), b = shadowViews[view].texelFromCamera * vec4(ray.direction, 0.0);
+  vec2 inset = cascadeFade * vec2(shadowMapSize), end = vec2(shadowMapSize) - inset;
   clipInterval(a.x - inset.x * a.w, b.x - inset.x * b.w, s0, s1);
   clipInterval(a.y - inset.y * a.w, b.y - inset.y * b.w, s0, s1);
   clipInterval(end.x * a.w - a.x, end.x * b.w - b.x, s0, s1);
   clipInterval(end.y * a.w - a.y, end.y * b.w - b.y, s0, s1);
-  float far = mix(viewDepth[view].y, viewDepth[view].x, fade.x);
-  if (viewDepth[view].w == 0.0) clipInterval(far * a.w - a.z, far * b.w - b.z, s0, s1);
+  float far = mix(shadowViews[view].farDepth, shadowViews[view].nearDepth, cascadeFade);
+  if (shadowViews[view].isOpen == 0) clipInterval(far * a.w - a.z, far * b.w - b.z, s0, s1);
   return vec2(s0, s1);
 }
 
 // A view's weight at s: its distance to its nearest side, or to its far plane, over its fade.
 float viewWeight(int view, Ray ray, float s) {
-  vec4 q = texelFromCamera[view] * vec4(ray.origin + s * ray.direction, 1.0);
-  vec2 place = q.xy / (q.w * vec2(viewCounts.zw)), side = min(place, 1.0 - place);
-  float least = min(side.x, side.y), far = viewDepth[view].y;
-  if (viewDepth[view].w == 0.0) least = min(least, (far - q.z / q.w) / (far - viewDepth[view].x));
-  return clamp(least / fade.x, 0.0, 1.0);
+  vec4 q = shadowViews[view].texelFromCamera * vec4(ray.origin + s * ray.direction, 1.0);
+  vec2 place = q.xy / (q.w * vec2(shadowMapSize)), side = min(place, 1.0 - place);
+  float least = min(side.x, side.y), far = shadowViews[view].farDepth;
+  if (shadowViews[view].isOpen == 0) least = min(least, (far - q.z / q.w) / (far - shadowViews[view].nearDepth));
+  return clamp(least / cascadeFade, 0.0, 1.0);
 }
 
 // Where a view that owns [s, end] fades, the next view that reaches there has the rest of the weight: returns that one, or
@@ -45,7 +45,7 @@ float viewWeight(int view, Ray ray, float s) {
 int fadeInto(int owner, Ray ray, vec2 owned[kMostOwned], float s0, float s1, float s, inout float end, out vec2 weight) {
   int next = -1;
   weight = vec2(1.0);
-  for (int i = owner + 1; i < viewCounts.x && next < 0; ++i) {
+  for (int i = owner + 1; i < viewCount && next < 0; ++i) {
     if (owned[i].y <= s || owned[i].y <= owned[i].x) continue;
     if (owned[i].x <= s) next = i;
     end = min(end, owned[i].x <= s ? owned[i].y : owned[i].x);
@@ -75,9 +75,9 @@ Light shadowedLight(Airlight light, Ray ray, float s0, float s1, ivec2 views, bo
 #if SHADOW_VIEWS == 1
   const int kViews = 1;
 #else
-  int kViews = viewCounts.x;
+  int kViews = viewCount;
 #endif
-  bool litOutside = viewCounts.y != 0;
+  bool litOutside = isLitOutside != 0;
   // Intervals of the views and, where the outside is dark, of the lit parts before their near planes.
   vec2 owned[kMostOwned];
   int count = litOutside ? kViews : 2 * kViews;
@@ -114,7 +114,7 @@ Light shadowedLight(Airlight light, Ray ray, float s0, float s1, ivec2 views, bo
       int next = -1;
       vec2 weight = vec2(1.0);
 #if FADES
-      if (inView && fade.x > 0.0) next = fadeInto(owner, ray, owned, s0, s1, s, end, weight);
+      if (inView && cascadeFade > 0.0) next = fadeInto(owner, ray, owned, s0, s1, s, end, weight);
 #endif
       if (outside && !inView && (owner >= 0 || litOutside)) sum += Light(airlight(light, s, end));
       int candidate = turn == 0 ? owner : next;

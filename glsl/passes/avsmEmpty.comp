@@ -1,14 +1,12 @@
-// AVSM empty: curves through which all light passes. Writes curves.
-#define TYNDALL_CURVE_ROOM TYNDALL_CURVE_NODES
-#include "lib/avsmCurve.glsl"
-#include "lib/avsmImage.glsl"
-
+// AVSM empty: curves through which all light passes, in all layers, whatever the number of their nodes. Writes curves.
+layout(rgba32ui, binding = 0) writeonly uniform uimage2DArray curveImage;
 layout(local_size_x = 8, local_size_y = 8) in;
 
+// A word of nodes of depth and transmittance 1, packed or not (lib/avsmNodes.glsl).
+uniform int clearWord;
+
 void main() {
-  ivec3 texel = ivec3(gl_GlobalInvocationID);
-  if (any(greaterThanEqual(texel.xy, imageSize(curveImage).xy))) return;
-  tyndallEmptyCurve();
-  tyndallPadCurve();
-  storeCurve(texel);
+  ivec3 texel = ivec3(gl_GlobalInvocationID), size = imageSize(curveImage);
+  if (any(greaterThanEqual(texel.xy, size.xy))) return;
+  for (int layer = texel.z; layer < size.z; layer += int(gl_NumWorkGroups.z)) imageStore(curveImage, ivec3(texel.xy, layer), uvec4(clearWord));
 }

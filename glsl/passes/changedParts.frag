@@ -39,5 +39,5 @@ void main() {
     if (differs) some = vec2(min(some.x, both.x), max(some.y, both.y));
     changed = changed || differs;
   }
-  outBounds = vec4(!changed ? vec2(1.0, 0.0) : spread.y > 0.0 ? all : some, 0.0, 0.0);
+  outBounds = vec4(!changed ? vec2(1.0, 0.0) : averageThreshold > 0.0 ? all : some, 0.0, 0.0);
 }

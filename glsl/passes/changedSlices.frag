@@ -1,34 +1,30 @@
 // Changed slices: from which to before which segment any of eight slices has changed, by whole chunks, and whether their rows
 // have: what changedStrips.vert and strips.vert draw; and whether the slice's own row has. Reads changedSegments and changedParts
-// (ROWS 1). Writes slices x 1: first segment, one past the last (0, 0: none), 1 for rows, 1 for the own row.
+// (comparesRows). Writes slices x 1: first segment, one past the last (0, 0: none), 1 for rows, 1 for the own row.
 #include "shared.glsl"
 #include "lib/slices.glsl"
 #include "lib/rows.glsl"
 
 uniform sampler2D changedSegments;
-#if ROWS
 uniform sampler2D changedParts;
-#endif
 layout(location = 0) out vec4 outRange;
 
 bool hasRowChanged(int slice) {
   bool changed = false;
-#if ROWS
-  for (int view = 0; view < march.y; ++view)
+  for (int view = 0; comparesRows != 0 && view < drawnViews; ++view)
     for (int part = 0; part < (rowTexels(view, slice) + 255) / 256; ++part) {
       vec2 bounds = texelFetch(changedParts, ivec2(part, rowOf(view, slice)), 0).rg;
       changed = changed || bounds.x <= bounds.y;
     }
-#endif
   return changed;
 }
 
 void main() {
-  int group = int(gl_FragCoord.x) & ~7, first = grid.y, last = 0;
+  int group = int(gl_FragCoord.x) & ~7, first = samplesPerSlice, last = 0;
   bool rows = false, own = hasRowChanged(int(gl_FragCoord.x));
-  for (int slice = group; slice < min(group + 8, grid.x); ++slice) {
+  for (int slice = group; slice < min(group + 8, sliceCount); ++slice) {
     rows = rows || hasRowChanged(slice);
-    for (int i = 0; i < grid.y / 16; ++i)
+    for (int i = 0; i < samplesPerSlice / 16; ++i)
       if (texelFetch(changedSegments, ivec2(slice, i), 0).r > 0.0) {
         first = min(first, i);
         last = max(last, i + 1);

@@ -1,41 +1,12 @@
-// Changed strips: rectangles of eight slices of which any has changed, neighbours as one. ALONG 0: in a target of slices x samples, or
-// a part of them, over the segments that have; 1: in one of slices x (segments + 1); 2: over all of slices x anything; 3: over all of
-// anything x rows. Reads changedSlices. Draws 6 vertices an instance.
+// Changed strips: the whole target or, for temporal reuse, where slices have changed, ALONG which axis lib/changedStrips.glsl says. Reads
+// changedSlices. Vertices: lib/partly.glsl.
 #include "shared.glsl"
+#include "lib/partly.glsl"
+#include "lib/changedStrips.glsl"
 
-uniform sampler2D changedSlices;
-
-const int kWidth = 8;
-
-int lines() { return ALONG == 3 ? march.y * grid.x : grid.x; }
-
-// Segments of a strip that have changed, from and to, and whether its rows have.
-vec3 changesOf(int strip) {
-  int line = min(kWidth * strip, lines() - 1);
-  vec4 own = texelFetch(changedSlices, ivec2(line % grid.x, 0), 0);
-  if (ALONG == 3) // rows of two views may share a rectangle
-    own = max(own, texelFetch(changedSlices, ivec2(min(line + kWidth - 1, lines() - 1) % grid.x, 0), 0));
-  return own.rgb;
-}
-
-bool isDrawn(int strip) { return ALONG == 3 ? changesOf(strip).b > 0.0 : changesOf(strip).g > 0.0; }
-
-#include "lib/changedRuns.glsl"
+flat out int isPart; // 1: only what has changed is drawn
 
 void main() {
-  ivec2 run = runFrom(gl_InstanceID, (lines() + kWidth - 1) / kWidth);
-  vec2 range = vec2(0.0, 1.0);
-  if (ALONG < 2) {
-    range = vec2(3e38, 0.0);
-    for (int strip = run.x; strip < run.y; ++strip) {
-      vec3 own = changesOf(strip);
-      range = vec2(min(range.x, own.r), max(range.y, own.g));
-    }
-    range /= float(grid.y / 16 + ALONG);
-  }
-  bool right = gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4;
-  bool top = gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5;
-  vec2 corner = vec2(float(kWidth * (right ? run.y : run.x)) / float(lines()), top ? range.y : range.x);
-  if (ALONG == 3) corner = corner.yx;
-  gl_Position = run.x < run.y ? vec4(2.0 * corner - 1.0, 0.0, 1.0) : vec4(2.0, 2.0, 0.0, 1.0);
+  isPart = gl_VertexID < 3 ? 0 : 1;
+  gl_Position = isPart == 0 ? wholeTarget(gl_VertexID) : stripVertex(gl_VertexID - 3);
 }

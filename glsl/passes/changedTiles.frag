@@ -1,7 +1,7 @@
 // Changed tiles: of 16 x 16 pixels, those of which a pixel may not be what it was in the last frame: its own depth has changed
-// (COMPARES_DEPTH 1), or a sample that serves it; or a pixel ends behind all those samples, so that it is marched by itself, and a row has
+// (comparesDepth), or a sample that serves it; or a pixel ends behind all those samples, so that it is marched by itself, and a row has
 // changed. Discards the others. Reads the slice table, changedSegments, changedSlices, sampleEnds, the scene depth and the last frame's.
-// In a light of which only some slices were compared (SOME 1: movedSlices) the depth of other tiles has not changed.
+// In a light of which only some slices were compared (comparesSome: movedSlices) the depth of other tiles has not changed.
 // Writes tiles, one after the other in lines of 256, R32F: 1.
 #include "shared.glsl"
 #include "lib/camera.glsl"
@@ -13,35 +13,31 @@ const int kTile = 16;
 uniform sampler2D changedSegments;
 uniform sampler2D changedSlices;
 uniform sampler2D sampleEnds;
-#if COMPARES_DEPTH
 uniform sampler2D lastDepth;
-#endif
-#if SOME
 uniform sampler2D movedSlices;
-#endif
 layout(location = 0) out vec4 outTile;
 
 // The slices around the pixels of a tile: the first, and how many. All of them where the epipole is near.
 ivec2 slicesOf(vec2 low, vec2 high) {
   vec2 middle = 0.5 * (low + high);
-  if (distance(middle * epipole.z, epipole.xy) < 2.0 * float(kTile) * abs(epipole.z)) return ivec2(0, grid.x);
+  if (distance(middle * epipole.z, epipole.xy) < 2.0 * float(kTile) * abs(epipole.z)) return ivec2(0, sliceCount);
   vec4 at = vec4(sliceCoordinate(low), sliceCoordinate(vec2(high.x, low.y)), sliceCoordinate(vec2(low.x, high.y)), sliceCoordinate(high));
-  float turn = float(grid.x), least = min(min(at.x, at.y), min(at.z, at.w)), most = max(max(at.x, at.y), max(at.z, at.w));
-  if (sliceMap.w != 0.0 && most - least > 0.5 * turn) { // across the begin
+  float turn = float(sliceCount), least = min(min(at.x, at.y), min(at.z, at.w)), most = max(max(at.x, at.y), max(at.z, at.w));
+  if (slicesClosed != 0 && most - least > 0.5 * turn) { // across the begin
     at += mix(vec4(0.0), vec4(turn), lessThan(at, vec4(0.5 * turn)));
     least = min(min(at.x, at.y), min(at.z, at.w));
     most = max(max(at.x, at.y), max(at.z, at.w));
   }
   int first = int(floor(least));
-  return ivec2(first, min(int(floor(most)) + 2 - first, grid.x));
+  return ivec2(first, min(int(floor(most)) + 2 - first, sliceCount));
 }
 
-int wrapped(int slice) { return sliceMap.w != 0.0 ? (slice + grid.x) % grid.x : clamp(slice, 0, grid.x - 1); }
+int wrapped(int slice) { return slicesClosed != 0 ? (slice + sliceCount) % sliceCount : clamp(slice, 0, sliceCount - 1); }
 
 float farthestEnd(ivec2 first, ivec2 last) {
   float end = 0.0;
   for (int y = first.y; y <= last.y; ++y)
-    for (int x = first.x; x <= last.x; ++x) end = max(end, min(rayEnd(vec2(x, y) + 0.5, depthAt(ivec2(x, y), 0)), extinction.w));
+    for (int x = first.x; x <= last.x; ++x) end = max(end, min(rayEnd(vec2(x, y) + 0.5, depthAt(ivec2(x, y))), visibleEnd));
   return end;
 }
 
@@ -61,28 +57,24 @@ vec2 changeOf(int slice, vec2 low, vec2 high) {
 }
 
 void main() {
-  int across = (counts.z + kTile - 1) / kTile, tile = int(gl_FragCoord.x) + 256 * int(gl_FragCoord.y);
-  ivec2 first = kTile * ivec2(tile % across, tile / across), last = min(first + kTile, counts.zw) - 1;
-  if (first.y >= counts.w) discard;
+  int across = (frameSize.x + kTile - 1) / kTile, tile = int(gl_FragCoord.x) + 256 * int(gl_FragCoord.y);
+  ivec2 first = kTile * ivec2(tile % across, tile / across), last = min(first + kTile, frameSize) - 1;
+  if (first.y >= frameSize.y) discard;
   vec2 low = vec2(first) + 0.5, high = vec2(last) + 0.5;
   ivec2 slices = slicesOf(low, high);
   bool changed = false, compared = false;
   float alone = 3e38;
   for (int i = 0; i < slices.y && !changed; ++i) {
     int slice = wrapped(slices.x + i);
-#if SOME
-    if (texelFetch(movedSlices, ivec2(slice, 0), 0).g == 0.0) continue;
-#endif
+    if (comparesSome != 0 && texelFetch(movedSlices, ivec2(slice, 0), 0).g == 0.0) continue;
     vec2 change = changeOf(slice, low, high);
     compared = true;
     changed = change.x > 0.0;
     alone = min(alone, change.y);
   }
-#if COMPARES_DEPTH
-  for (int y = first.y; y <= last.y && compared && !changed; ++y)
+  for (int y = first.y; comparesDepth != 0 && y <= last.y && compared && !changed; ++y)
     for (int x = first.x; x <= last.x; ++x)
-      changed = changed || floatBitsToInt(depthAt(ivec2(x, y), 0)) != floatBitsToInt(texelFetch(lastDepth, ivec2(x, y), 0).r);
-#endif
+      changed = changed || floatBitsToInt(depthAt(ivec2(x, y))) != floatBitsToInt(texelFetch(lastDepth, ivec2(x, y), 0).r);
   if (!changed && alone < 3e38) changed = farthestEnd(first, last) > alone;
   if (!changed) discard;
   outTile = vec4(1.0);

@@ -9,6 +9,6 @@ layout(location = 0, index = 1) out vec4 outTransmittance;
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  outInscatter = vec4(min(texelFetch(inscatter, pixel, 0).rgb, limits.yyy), 0.0);
+  outInscatter = vec4(min(texelFetch(inscatter, pixel, 0).rgb, vec3(colourMax)), 0.0);
   outTransmittance = vec4(texelFetch(transmittance, pixel, 0).rgb, 1.0);
 }

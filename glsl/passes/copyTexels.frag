@@ -7,6 +7,6 @@ layout(location = 0) out vec4 outTexel;
 void main() {
   outTexel = texelFetch(image, ivec2(gl_FragCoord.xy), 0);
 #ifdef CAPPED
-  outTexel = min(outTexel, limits.zzzz);
+  outTexel = min(outTexel, vec4(outputMax));
 #endif
 }

@@ -18,13 +18,13 @@ layout(location = 0) out vec4 outEnds;
 void main() {
   int cell = int(gl_FragCoord.x), view = viewOfRow(int(gl_FragCoord.y));
   vec4 row = rowLine(view, sliceOfRow(int(gl_FragCoord.y)));
-  vec2 scale = float(curveCounts.x) / vec2(viewCounts.zw), origin = row.xy * scale, step = row.zw * scale;
+  vec2 scale = float(curvesSize) / vec2(shadowMapSize), origin = row.xy * scale, step = row.zw * scale;
   bool alongX = isAlongX(row), mirrored = (alongX ? step.x : step.y) < 0.0;
   if (!alongX) {
     origin = origin.yx;
     step = step.yx;
   }
-  float main = mirrored ? float(curveCounts.x) - float(cell) - 0.5 : float(cell) + 0.5;
+  float main = mirrored ? float(curvesSize) - float(cell) - 0.5 : float(cell) + 0.5;
   float across = origin.y + step.y * (step.x != 0.0 ? (main - origin.x) / step.x : 0.0);
-  outEnds = vec4(cellEnds(alongX, mirrored, view, cell, clamp(across, 0.0, float(curveCounts.x))), 0.0);
+  outEnds = vec4(cellEnds(alongX, mirrored, view, cell, clamp(across, 0.0, float(curvesSize))), 0.0);
 }

@@ -7,7 +7,7 @@ uniform sampler2D curveCells;
 layout(location = 0) out vec4 outNode;
 
 void main() {
-  int node = int(gl_FragCoord.x), row = int(gl_FragCoord.y), level = 1, cells = curveCounts.x;
+  int node = int(gl_FragCoord.x), row = int(gl_FragCoord.y), level = 1, cells = curvesSize;
   while (node >= (cells + (1 << (2 * level)) - 1) >> (2 * level) && level < 8) {
     node -= (cells + (1 << (2 * level)) - 1) >> (2 * level);
     ++level;

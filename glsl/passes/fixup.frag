@@ -12,18 +12,13 @@
 #include "lib/trueLine.glsl"
 #include "lib/row.glsl"
 
-#if COMPOSITE
 layout(location = 0, index = 0) out vec4 outInscatter;
 layout(location = 0, index = 1) out vec4 outTransmittance;
-#else
-layout(location = 0) out vec4 outInscatter;
-layout(location = 1) out vec4 outTransmittance;
-#endif
 
 void main() {
-  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy), 0)), 0.0);
+  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy))), 0.0);
   int slice = neighbourSlices(sliceCoordinate(gl_FragCoord.xy)).x;
   vec3 light = vec3(rowShadowedLight(cameraRay(gl_FragCoord.xy), 0.0, end, slice));
-  outInscatter = vec4(min(lightColour.rgb * light, limits.xxx), 0.0);
+  outInscatter = vec4(min(lightColour * light, vec3(lightCeiling)), 0.0);
   outTransmittance = vec4(transmittanceTo(end), 1.0);
 }

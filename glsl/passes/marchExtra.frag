@@ -17,9 +17,8 @@
 uniform sampler2D sampleEnds;
 uniform sampler2D marks;
 uniform sampler2D extraOffsets;
-#ifdef CHANGED
 uniform sampler2D changedSegments;
-#endif
+flat in int isPart;
 layout(location = 0) out vec4 outFirst;
 #if !MONOCHROME || GLASS
 layout(location = 1) out vec4 outGreen;
@@ -59,8 +58,8 @@ ivec4 runLast(ivec4 index) {
 
 void main() {
   int slice = int(gl_FragCoord.x), samples = sliceSamples(slice), chunk = 0, offset = 0;
-  if (gl_FragCoord.y > texelFetch(extraOffsets, ivec2(slice, grid.y / 64), 0).r) discard;
-  for (int i = 1; i < grid.y / 64; ++i) { // the last chunk that begins here or before
+  if (gl_FragCoord.y > texelFetch(extraOffsets, ivec2(slice, samplesPerSlice / 64), 0).r) discard;
+  for (int i = 1; i < samplesPerSlice / 64; ++i) { // the last chunk that begins here or before
     int begin = int(texelFetch(extraOffsets, ivec2(slice, i), 0).r);
     if (begin > int(gl_FragCoord.y)) break;
     chunk = i;
@@ -74,12 +73,10 @@ void main() {
   ivec4 first = runFirst(index), last = runLast(index);
   vec3 stored[4] = vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
   bvec4 waiting = notEqual(index, ivec4(kNone));
-#ifdef CHANGED
-  bool changed = false;
+  bool changed = isPart == 0;
   for (int k = 0; k < 4; ++k)
     changed = changed || (waiting[k] && texelFetch(changedSegments, ivec2(slice, 4 * chunk + (index[k] >> 4)), 0).r > 0.0);
   if (!changed) waiting = bvec4(false);
-#endif
   Light sum = Light(0.0);
   float from = 0.0;
   int run = -1;

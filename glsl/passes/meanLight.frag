@@ -35,7 +35,7 @@ uniform sampler2D sliceSums;
 
 void main() {
   vec2 sum = vec2(0.0);
-  for (int slice = 0; slice < grid.x; ++slice) sum += texelFetch(sliceSums, ivec2(slice, 0), 0).rg;
+  for (int slice = 0; slice < sliceCount; ++slice) sum += texelFetch(sliceSums, ivec2(slice, 0), 0).rg;
   outMean = vec4(sum.y > 0.0 ? sum.x / sum.y : 0.0, 0.0, 0.0, 0.0);
 }
 

@@ -24,20 +24,20 @@ void main() {
   int at = int(gl_FragCoord.y), view = viewOfRow(at), slice = sliceOfRow(at);
   int other = neighbourSlices(float(slice) + 0.5).y, otherAt = rowOf(view, other);
   int node = int(gl_FragCoord.x), level = 1;
-  while (node >= grid.z >> (2 * level) && level < grid.w) {
-    node -= grid.z >> (2 * level);
+  while (node >= rowLength >> (2 * level) && level < treeLevels) {
+    node -= rowLength >> (2 * level);
     ++level;
   }
-  int base = int(gl_FragCoord.x) - node - grid.z / 4;
+  int base = int(gl_FragCoord.x) - node - rowLength / 4;
   // The nodes of the other row beside this one.
   vec4 row = rowLine(view, slice), beside = rowLine(view, other);
   vec2 along = beside.zw / dot(beside.zw, beside.zw), ends;
   ends.x = dot(row.xy + row.zw * float(node << (2 * level)) - beside.xy, along);
   ends.y = ends.x + dot(row.zw, along) * float(1 << (2 * level));
-  ivec2 nodes = clamp(ivec2(floor(vec2(min(ends.x, ends.y), max(ends.x, ends.y)))), ivec2(0), ivec2(grid.z - 1)) >> (2 * level);
+  ivec2 nodes = clamp(ivec2(floor(vec2(min(ends.x, ends.y), max(ends.x, ends.y)))), ivec2(0), ivec2(rowLength - 1)) >> (2 * level);
   vec2 a = nodeOf(at, level, base, node), b = nodeOf(otherAt, level, base, nodes.x), c = nodeOf(otherAt, level, base, nodes.y);
   vec2 bounds = vec2(min(a.x, min(b.x, c.x)), max(a.y, max(b.y, c.y)));
   // Rows in 16 bits may have been rounded to either side.
-  if (rowCode.w > 0.0) bounds += vec2(bounds.x < rowCode.z ? -1.0 : 0.0, 1.0) / rowCode.w;
+  if (rowCodeSteps > 0.0) bounds += vec2(bounds.x < emptyRowCode ? -1.0 : 0.0, 1.0) / rowCodeSteps;
   outBounds = vec4(bounds, 0.0, 0.0);
 }

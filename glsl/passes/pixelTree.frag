@@ -1,5 +1,5 @@
-// Pixel tree: every pixel, or every pixel that unwarp left, through the tree of its nearest slice (Chen 2011); one light,
-// the shadow views of a draw. Reads the scene depth, slice table and row textures; LOW_RANK 1: lowRankRays, lowRankLights. Writes as exact.frag does.
+// Pixel tree: every pixel through the tree of its nearest slice, as march.frag does, by low rank (Chen 2011) or counting what it looks at;
+// one light, the shadow views of a draw. Reads the scene depth, slice table and row textures; LOW_RANK 1: lowRankRays, lowRankLights. Writes as exact.frag does.
 #define ROW_CURVES
 #include "shared.glsl"
 #include "lib/camera.glsl"
@@ -17,16 +17,11 @@
 #include "lib/tree.glsl"
 #include "lib/row.glsl"
 
-#if COMPOSITE
 layout(location = 0, index = 0) out vec4 outInscatter;
 layout(location = 0, index = 1) out vec4 outTransmittance;
-#else
-layout(location = 0) out vec4 outInscatter;
-layout(location = 1) out vec4 outTransmittance;
-#endif
 
 void main() {
-  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy), 0)), 0.0);
+  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy))), 0.0);
   int slice = neighbourSlices(sliceCoordinate(gl_FragCoord.xy) + 0.5).x;
 #ifdef LOW_RANK
   startLowRank(cameraRay(gl_FragCoord.xy), slice);
@@ -35,7 +30,7 @@ void main() {
 #ifdef COUNT_VISITS
   outInscatter = vec4(visits);
 #else
-  outInscatter = vec4(min(lightColour.rgb * light, limits.xxx), 0.0);
+  outInscatter = vec4(min(lightColour * light, vec3(lightCeiling)), 0.0);
 #endif
   outTransmittance = vec4(transmittanceTo(end), 1.0);
 }

@@ -14,7 +14,7 @@ layout(location = 0) out vec4 outMarks;
 
 // Light of a segment's regular sample, its channels as bright as they show; a single one may not show at all.
 vec3 at(int slice, int segment, int last) {
-  vec3 shown = lightColour.rgb / stored.rgb;
+  vec3 shown = lightColour / storedScale;
   return max(shown / max(shown.r, max(shown.g, shown.b)), vec3(1e-6)) * texelFetch(marched, ivec2(slice, clamp(segment, 0, last)), 0).rgb;
 }
 
@@ -33,7 +33,7 @@ void main() {
     float most = max(first + s > 0 ? bend(a, b, c) : 0.0, first + s + 2 <= last ? bend(b, c, d) : 0.0);
     if (last < 2) most = 1.0;
     int valid = (1 << clamp(samples - 16 * (first + s), 0, 16)) - 1;
-    if (most > thresholds.z && popcount(masks[s]) < kCrowded) masks[s] |= (most > 4.0 * thresholds.z ? 0x5555 : 0x1111) & valid;
+    if (most > bendThreshold && popcount(masks[s]) < kCrowded) masks[s] |= (most > 4.0 * bendThreshold ? 0x5555 : 0x1111) & valid;
     a = b;
     b = c;
     c = d;

@@ -10,7 +10,7 @@
 
 layout(location = 0) out vec4 outDepths;
 
-float coded(float depth) { return depth > 1e38 ? rowCode.z : depth * rowCode.x + rowCode.y; }
+float coded(float depth) { return depth > 1e38 ? emptyRowCode : depth * rowCodeScale + rowCodeOffset; }
 
 #if FILTER_BILINEAR || GLASS
 
@@ -29,7 +29,7 @@ struct Point {
 ivec2 cornerOf(Point point, int i) { return ivec2(i % 2 == 0 ? point.corners.x : point.corners.z, i < 2 ? point.corners.y : point.corners.w); }
 
 Point pointAt(vec2 p, int view) {
-  ivec2 last = viewCounts.zw - 1;
+  ivec2 last = shadowMapSize - 1;
   Point point;
 #if FILTER_BILINEAR
   ivec2 cell = clamp(ivec2(floor(p - 0.5)), ivec2(-1), last), low = max(cell, ivec2(0)), high = min(cell + 1, last);
@@ -109,8 +109,8 @@ void addHash(Point point, int view, inout uvec2 hash) {
 
 // Rounded outward where depths are stored in 16 bits: the texture's own rounding then changes nothing.
 vec4 storedSplit(vec4 split) {
-  vec4 scaled = split * rowCode.w;
-  return rowCode.w > 0.0 ? vec4(floor(scaled.x), ceil(scaled.y), floor(scaled.z), ceil(scaled.w)) / rowCode.w : split;
+  vec4 scaled = split * rowCodeSteps;
+  return rowCodeSteps > 0.0 ? vec4(floor(scaled.x), ceil(scaled.y), floor(scaled.z), ceil(scaled.w)) / rowCodeSteps : split;
 }
 
 void main() {
@@ -152,7 +152,7 @@ void main() {
 void main() {
   int first = 4 * int(gl_FragCoord.x), view = viewOfRow(int(gl_FragCoord.y));
   vec4 row = rowLine(view, sliceOfRow(int(gl_FragCoord.y)));
-  ivec2 last = viewCounts.zw - 1;
+  ivec2 last = shadowMapSize - 1;
   for (int k = 0; k < 4; ++k) {
     vec2 p = row.xy + row.zw * (float(first + k) + 0.5);
     outDepths[k] = coded(casterDepth(clamp(ivec2(floor(p)), ivec2(0), last), view));

@@ -26,8 +26,8 @@ Average averageAt(ivec2 at) {
 
 void main() {
   int row = int(gl_FragCoord.y), view = viewOfRow(row), node = int(gl_FragCoord.x), level = 2;
-  while (node >= grid.z >> (2 * level) && level < grid.w) {
-    node -= grid.z >> (2 * level);
+  while (node >= rowLength >> (2 * level) && level < treeLevels) {
+    node -= rowLength >> (2 * level);
     ++level;
   }
   int count = 1 << (2 * (level - 2)), first = node * count;

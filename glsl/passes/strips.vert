@@ -1,33 +1,34 @@
-// Strips: one rectangle per 64 slices (rows), or of eight (CHANGED 1) where any has changed, neighbours as one, as long as the fullest
-// of them needs, in a target of slices x fragments or, for the rows, fragments x rows.
+// Strips: one rectangle per 64 lines, slices or rows, or, for temporal reuse, of eight where any has changed, neighbours as one, as long as
+// the fullest of them needs, in a target of slices x fragments or, for the rows, fragments x rows.
 // Reads, for the rows (STRIPS_OF_ROWS 1: four texels a fragment), the slice table, or, for the extra march samples (four
-// a fragment), extraOffsets; CHANGED: changedSlices. Draws 6 vertices an instance.
+// a fragment), extraOffsets; changedSlices. Draws 6 vertices an instance: from 0 on all, from 6 on what has changed.
 #include "shared.glsl"
+#include "lib/partly.glsl"
 
 #ifdef STRIPS_OF_ROWS
 #include "lib/slices.glsl"
 #include "lib/rows.glsl"
 
-int lines() { return march.y * grid.x; }
+int lines() { return drawnViews * sliceCount; }
 float fragmentsOf(int row) { return float(rowTexels(viewOfRow(row), sliceOfRow(row)) / 4); }
-float room() { return float(grid.z / 4); }
+float room() { return float(rowLength / 4); }
 #else
 uniform sampler2D extraOffsets;
 
-int lines() { return grid.x; }
-float fragmentsOf(int slice) { return texelFetch(extraOffsets, ivec2(slice, grid.y / 64), 0).r; }
-float room() { return float(grid.y / 4); }
+int lines() { return sliceCount; }
+float fragmentsOf(int slice) { return texelFetch(extraOffsets, ivec2(slice, samplesPerSlice / 64), 0).r; }
+float room() { return float(samplesPerSlice / 4); }
 #endif
 
-#ifdef CHANGED
 uniform sampler2D changedSlices;
+flat out int isPart; // 1: only what has changed is drawn
 const int kWidth = 8;
 
 bool isDrawn(int strip) {
 #ifdef STRIPS_OF_ROWS
   bool drawn = false; // rows of two views may share a strip
   for (int i = 0; i < kWidth; ++i)
-    drawn = drawn || texelFetch(changedSlices, ivec2(min(kWidth * strip + i, lines() - 1) % grid.x, 0), 0).b > 0.0;
+    drawn = drawn || texelFetch(changedSlices, ivec2(min(kWidth * strip + i, lines() - 1) % sliceCount, 0), 0).b > 0.0;
   return drawn;
 #else
   return texelFetch(changedSlices, ivec2(kWidth * strip, 0), 0).g > 0.0;
@@ -35,20 +36,20 @@ bool isDrawn(int strip) {
 }
 
 #include "lib/changedRuns.glsl"
-#else
-const int kWidth = 64;
 
-ivec2 runFrom(int strip, int strips) { return ivec2(strip, strip + 1); }
-#endif
+// The lines of an instance's rectangle, from and to.
+ivec2 linesOf(int strip) {
+  if (isPart == 0) return ivec2(64 * strip, 64 * (strip + 1));
+  return kWidth * runFrom(strip, (lines() + kWidth - 1) / kWidth);
+}
 
 void main() {
+  isPart = gl_VertexID / 6;
   float fragments = 0.0;
-  ivec2 run = runFrom(gl_InstanceID, (lines() + kWidth - 1) / kWidth);
-  for (int line = kWidth * run.x; line < min(kWidth * run.y, lines()); ++line)
-    fragments = max(fragments, fragmentsOf(line));
-  bool right = gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4;
-  bool top = gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5;
-  vec2 corner = vec2(kWidth * (right ? run.y : run.x), top ? fragments : 0.0) / vec2(lines(), room());
+  ivec2 run = linesOf(gl_InstanceID);
+  for (int line = run.x; line < min(run.y, lines()); ++line) fragments = max(fragments, fragmentsOf(line));
+  bvec2 at = cornerOf(gl_VertexID % 6);
+  vec2 corner = vec2(at.x ? run.y : run.x, at.y ? fragments : 0.0) / vec2(lines(), room());
 #ifdef STRIPS_OF_ROWS
   corner = corner.yx;
 #endif

@@ -1,23 +1,6 @@
-// Tiles: one square of 16 x 16 pixels for each that has changed; four around a corner as one, since the pixels along the diagonal between
-// a square's two triangles are shaded twice. Reads changedTiles. Draws 6 vertices an instance.
+// Tiles: the whole image or, for temporal reuse, the tiles that have changed. Reads changedTiles. Vertices: lib/partly.glsl.
 #include "shared.glsl"
+#include "lib/partly.glsl"
+#include "lib/changedTiles.glsl"
 
-uniform sampler2D changedTiles;
-
-const int kTile = 16;
-
-bool isChanged(ivec2 tile, ivec2 tiles) {
-  int index = tile.y * tiles.x + tile.x;
-  return tile.x < tiles.x && tile.y < tiles.y && texelFetch(changedTiles, ivec2(index % 256, index / 256), 0).r > 0.0;
-}
-
-void main() {
-  ivec2 tiles = (counts.zw + kTile - 1) / kTile, tile = ivec2(gl_InstanceID % tiles.x, gl_InstanceID / tiles.x), first = tile & ~1;
-  bool four = isChanged(first, tiles) && isChanged(first + ivec2(1, 0), tiles) && isChanged(first + ivec2(0, 1), tiles) &&
-              isChanged(first + 1, tiles);
-  bool drawn = four ? tile == first : isChanged(tile, tiles);
-  bool right = gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4;
-  bool top = gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5;
-  vec2 corner = vec2(kTile * (tile + (four ? 2 : 1) * ivec2(right ? 1 : 0, top ? 1 : 0))) / vec2(counts.zw);
-  gl_Position = drawn ? vec4(2.0 * corner - 1.0, 0.0, 1.0) : vec4(2.0, 2.0, 0.0, 1.0);
-}
+void main() { gl_Position = gl_VertexID < 3 ? wholeTarget(gl_VertexID) : tileVertex(gl_VertexID - 3); }

@@ -18,7 +18,7 @@ layout(location = 2) out vec4 outBlue;
 
 // The tint of a row's texel behind all panes around it.
 vec3 tintAt(vec2 p, int view) {
-  ivec2 last = viewCounts.zw - 1;
+  ivec2 last = shadowMapSize - 1;
 #if FILTER_BILINEAR
   ivec2 cell = clamp(ivec2(floor(p - 0.5)), ivec2(-1), last), low = max(cell, ivec2(0)), high = min(cell + 1, last);
   vec2 f = clamp(p - 0.5 - vec2(cell), 0.0, 1.0);
@@ -33,7 +33,7 @@ vec3 tintAt(vec2 p, int view) {
 Ray referenceRay(int slice) {
   vec4 ends = sliceEnds(slice);
   Ray a = cameraRay(ends.xy), b = cameraRay(ends.zw);
-  vec3 toLight = LIGHT_KIND == 0 ? lightDirection.xyz : lightPosition.xyz;
+  vec3 toLight = LIGHT_KIND == 0 ? lightDirection : lightPosition;
   vec3 sineA = cross(toLight, a.direction), sineB = cross(toLight, b.direction);
   if (dot(sineA, sineA) > dot(sineB, sineB)) return a;
   return b;
@@ -41,33 +41,33 @@ Ray referenceRay(int slice) {
 
 // Where in the grid the light ray lies that bounds a row's texel: it crosses the reference ray at s, p / q.
 vec3 placeAt(Ray reference, int view, vec4 row, float index) {
-  vec4 a = texelFromCamera[view] * vec4(reference.origin, 1.0), b = texelFromCamera[view] * vec4(reference.direction, 0.0);
+  vec4 a = shadowViews[view].texelFromCamera * vec4(reference.origin, 1.0), b = shadowViews[view].texelFromCamera * vec4(reference.direction, 0.0);
   vec2 along = row.zw / dot(row.zw, row.zw);
   float at = index + dot(row.xy, along), p = at * a.w - dot(a.xy, along), q = dot(b.xy, along) - at * b.w;
-  float sine = length(cross(LIGHT_KIND == 0 ? lightDirection.xyz : normalize(lightPosition.xyz), reference.direction));
+  float sine = length(cross(LIGHT_KIND == 0 ? lightDirection : normalize(lightPosition), reference.direction));
 #if LIGHT_KIND == 0
   return placeOfLight(abs(q) > 0.0 ? p / q * sine : 0.0);
 #else
   // The line through the lamp: its half above the line from the lamp to the eye has an angle from 0 to pi.
-  float lamp = length(lightPosition.xyz), y = p * sine, x = q * lamp - p * dot(lightPosition.xyz, reference.direction) / lamp;
+  float lamp = length(lightPosition), y = p * sine, x = q * lamp - p * dot(lightPosition, reference.direction) / lamp;
   return placeOfLight(y < 0.0 ? atan(-y, -x) : atan(y, x));
 #endif
 }
 
 void main() {
-  int fours = (int(lowRankRay.z) + 3) / 4, rows = textureSize(rowDepths, 0).y, four = int(gl_FragCoord.y) / rows, row = int(gl_FragCoord.y) % rows;
+  int fours = (lowRankTerms + 3) / 4, rows = textureSize(rowDepths, 0).y, four = int(gl_FragCoord.y) / rows, row = int(gl_FragCoord.y) % rows;
   int view = viewOfRow(row), slice = sliceOfRow(row), first = 4 * int(gl_FragCoord.x);
   outRed = outGreen = outBlue = vec4(0.0);
-  if (row >= grid.x * max(march.y, 1) || first >= rowTexels(view, slice)) return;
+  if (row >= sliceCount * max(drawnViews, 1) || first >= rowTexels(view, slice)) return;
   vec4 line = rowLine(view, slice);
   Ray reference = referenceRay(slice);
-  lowRank.set = lowRankLight.y != 0.0 ? slice : 0;
+  lowRank.set = lowRankPerSlice != 0 ? slice : 0;
   vec3 place = placeAt(reference, view, line, float(first));
   for (int k = 1; k <= 4; ++k) {
     vec3 next = placeAt(reference, view, line, float(first + k)), tint = tintAt(line.xy + line.zw * (float(first + k) - 0.5), view);
     for (int i = 0; i < 4; ++i) {
       int term = 4 * four + i;
-      if (term >= int(lowRankRay.z)) continue;
+      if (term >= lowRankTerms) continue;
       vec3 light = tint * vec3(prefixSum(term, next) - prefixSum(term, place));
       outRed[i] += light.r;
       outGreen[i] += light.g;

@@ -1,7 +1,7 @@
 // Unwarp: from slices to pixels, bilinear over two slices and two samples each, each sample weighted by how well its
 // distance agrees with the pixel's (Yusov 2013, "Transformation from epipolar to rectangular coordinates"). A pixel that no
 // sample serves, or whose samples differ by a share of the picture's mean, is discarded, so that its stencil stays for the
-// fix-up. Reads the slice table, epipolarInscatter, the scene depth and, with SPREAD 1, meanLight. Writes inscatter and transmittance as exact.frag does.
+// fix-up. Reads the slice table, epipolarInscatter, the scene depth and, with SPREAD 1 (never with COMPOSITE), meanLight. Writes inscatter and transmittance as exact.frag does.
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
@@ -43,7 +43,7 @@ void addSlice(int slice, float sliceWeight, vec2 p, float end, inout Sums sums) 
   for (int k = 0; k < 2; ++k) {
     vec4 texel = texelFetch(epipolarInscatter, ivec2(slice, low + k), 0);
     float weight = sliceWeight * (k == 0 ? 1.0 - f : f), sampleEnd = storedCoordinate(texel);
-    float agreement = min(1.0, thresholds.w / max(abs(sampleEnd - end), 1e-20));
+    float agreement = min(1.0, endThreshold / max(abs(sampleEnd - end), 1e-20));
     agreement *= agreement;
     float agreeing = weight * agreement * agreement;
     sums.agreeing += agreeing * vec4(texel.rgb, 1.0);
@@ -58,11 +58,11 @@ void addSlice(int slice, float sliceWeight, vec2 p, float end, inout Sums sums) 
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  float end = max(rayEnd(gl_FragCoord.xy, depthAt(pixel, 0)), 0.0);
+  float end = max(rayEnd(gl_FragCoord.xy, depthAt(pixel)), 0.0);
   float place = sliceCoordinate(gl_FragCoord.xy), f = fract(place);
   ivec2 slices = neighbourSlices(place);
   Ray ray = cameraRay(gl_FragCoord.xy);
-  float coordinate = endCoordinate(ray, min(end, extinction.w));
+  float coordinate = endCoordinate(ray, min(end, visibleEnd));
 #if SPREAD
   spreadUnit = radianceUnit(ray) / max(texelFetch(meanLight, ivec2(0), 0).r, 1e-37);
 #endif
@@ -71,7 +71,7 @@ void main() {
   addSlice(slices.y, f, gl_FragCoord.xy, coordinate, sums);
   // Where the samples' ends lead to the pixel's, one surface runs through all of them: to leave out those that
   // differ more, towards a horizon, say, would only pull to one side.
-  float apart = abs(sums.plain.a - coordinate * sums.plainWeight), allowed = 0.125 * thresholds.w * sums.plainWeight;
+  float apart = abs(sums.plain.a - coordinate * sums.plainWeight), allowed = 0.125 * endThreshold * sums.plainWeight;
   float oneSurface = clamp(2.0 - apart / max(allowed, 1e-20), 0.0, 1.0);
   vec4 sum = mix(sums.agreeing, vec4(sums.plain.rgb, sums.plainWeight), oneSurface);
   // Next to a lamp inscatter and its shadows change from pixel to pixel; at it every direction has a limit of its own.
@@ -79,12 +79,12 @@ void main() {
   vec2 fromEpipole = gl_FragCoord.xy * epipole.z - epipole.xy;
   float near = (epipole.z > 0.0 ? kNear : EPIPOLE_GAP) * epipole.z;
   if (dot(fromEpipole, fromEpipole) < near * near) discard;
-  if (!(sum.w >= thresholds.y && sum.w > 0.0)) discard;
+  if (!(sum.w >= leastWeight && sum.w > 0.0)) discard;
 #if SPREAD
   // Samples that agree with the pixel but not with each other: edges of shadows run between them.
-  float least = spread.x * sums.agreeing.w, brightest = brightestOf(lightOf(sums.agreeing.rgb) * spreadUnit);
+  float least = spreadThreshold * sums.agreeing.w, brightest = brightestOf(lightOf(sums.agreeing.rgb) * spreadUnit);
   if (sums.squares * sums.agreeing.w - brightest * brightest > least * least) discard;
 #endif
-  outInscatter = vec4(min(radianceUnit(ray) * lightOf(sum.rgb / sum.w), limits.xxx), 0.0);
+  outInscatter = vec4(min(radianceUnit(ray) * lightOf(sum.rgb / sum.w), vec3(lightCeiling)), 0.0);
   outTransmittance = vec4(transmittanceTo(end), 1.0);
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <scene/ProgramFiles.h>
 #include <string_view>
 #include <tuple>
 
@@ -15,7 +16,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kProfiles = {"performance", "balanced", "high", "reference"};
 constexpr std::array<std::string_view, 4> kTechniques = {"exact", "tree", "epipolar", "lowrank"};
-// In the order of tyndall::View.
+// In the order of tyndall::DebugView.
 constexpr std::array<std::string_view, 11> kViews = {"composite",     "slices",       "samples",     "breaks",
                                                      "march-samples", "fixup-pixels", "node-visits", "inscatter",
                                                      "transmittance", "difference",   "redrawn"};
@@ -37,6 +38,9 @@ Views
   with --technique tree, lowrank or epipolar slices and node-visits (black 0 to white 1023, ticks at 4, 16, 64, 256); with
   epipolar samples, breaks, march-samples and fixup-pixels. tyndall.h explains the colours. All but composite and
   inscatter go into the PNG without tone mapping.
+Program cache
+  Linked programs are kept in $XDG_CACHE_HOME/tyndall/programs, ~/.cache/tyndall/programs by default, at most 64 MiB:
+  what was not used for the longest time goes. Where that folder cannot be written, none are kept.
 Exit status
   0: done; 1: failed, with one line that names file and cause; 2: wrong usage.)";
 
@@ -47,7 +51,8 @@ struct Typed {
       sampleBudget, cascadeFade, filter, medium, shadowSize, avsmSize, avsmNodes, cascades, frames, repeat, context,
       stats, exposure;
   std::vector<std::string> out;
-  bool reversedDepth = false, noReuse = false, noAvsm = false, detectChanges = false, strict = false;
+  bool reversedDepth = false, noReuse = false, noAvsm = false, noProgramCache = false, detectChanges = false,
+       strict = false;
 };
 
 double parseFinite(const std::string& option, const std::string& value, const std::string& part) {
@@ -135,10 +140,10 @@ std::optional<float> parseThreshold(const std::string& option, const std::string
   return static_cast<float>(number);
 }
 
-tyndall::View parseView(const std::string& name) {
+tyndall::DebugView parseView(const std::string& name) {
   const auto* const found = std::find(kViews.begin(), kViews.end(), name);
   if (found == kViews.end()) failUsage("--view", name, fmt::format("must be one of {}", fmt::join(kViews, ", ")));
-  return static_cast<tyndall::View>(found - kViews.begin());
+  return static_cast<tyndall::DebugView>(found - kViews.begin());
 }
 
 void readQuality(const Typed& typed, Options& options) {
@@ -255,6 +260,8 @@ void addOptions(CLI::App& app, Typed& typed) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--stats", typed.stats, "timings and counts as JSON")->type_name("S.json");
+  app.add_flag("--no-program-cache", typed.noProgramCache,
+               "compile every shader: linked programs are neither read from the user's cache folder nor kept there");
   app.add_flag("--strict", typed.strict, "fail where there is a note: nothing is made up, left out or changed");
   app.add_option("--exposure", typed.exposure, "of the PNG, in stops (default: by the first picture's brightness)")
       ->type_name("STOPS");
@@ -272,6 +279,7 @@ Options fromTyped(const Typed& typed) {
   if (typed.noReuse && typed.detectChanges) failUsage("--detect-changes", "given", "cannot go with --no-reuse");
   if (options.frames && !typed.noReuse && !options.repeat)
     options.changes = typed.detectChanges ? tyndall::Changes::Detect : tyndall::Changes::Objects;
+  if (!typed.noProgramCache) options.programs = host::programFolder();
   options.context = parseContext("--context", typed.context);
   readOutputs(typed, options);
   options.strict = typed.strict;

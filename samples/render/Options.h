@@ -45,7 +45,7 @@ struct Options {
   std::optional<float> breakThreshold, bendThreshold, leastWeight, averageThreshold,
       spreadThreshold; ///< none: by the profile
   std::optional<int> lowRankTerms, sampleBudget;
-  tyndall::View view = tyndall::View::Composite;
+  tyndall::DebugView view = tyndall::DebugView::Composite;
   tyndall::ShadowFilter shadowFilter = tyndall::ShadowFilter::Nearest;
   std::optional<std::filesystem::path> medium;
   int shadowSize = 4096;
@@ -58,6 +58,7 @@ struct Options {
   std::optional<FrameRange> frames; ///< none: frame 0, and one object in the statistics instead of a list
   tyndall::Changes changes = tyndall::Changes::Unknown; ///< how frames after the first reuse what they can
   std::optional<int> repeat;                            ///< none: render once, without a warm-up
+  std::optional<std::filesystem::path> programs;        ///< where linked programs are kept; none: all are compiled
   host::ContextKind context = host::ContextKind::Osmesa;
   std::vector<std::filesystem::path> out;
   std::optional<std::filesystem::path> stats;

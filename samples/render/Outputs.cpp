@@ -119,7 +119,8 @@ void writePicture(const std::filesystem::path& file, const Picture& picture, con
     return;
   }
   // Radiance takes the film curve; the colours of the other views mean numbers.
-  const bool isRadiance = options.view == tyndall::View::Composite || options.view == tyndall::View::Inscatter;
+  const bool isRadiance =
+      options.view == tyndall::DebugView::Composite || options.view == tyndall::DebugView::Inscatter;
   const std::vector<float> rgb = topDownRgb(picture.composite, renderedWidth(options), renderedHeight(options));
   host::writePng(file, options.width, options.height,
                  isRadiance ? host::toneMap(rgb.data(), options.width, options.height, exposure, options.supersample)

@@ -10,6 +10,7 @@
 #include <scene/GltfLoader.h>
 #include <scene/MediumFile.h>
 #include <scene/MovedObjects.h>
+#include <scene/ProgramFiles.h>
 #include <scene/Projection.h>
 #include <scene/ShadowViews.h>
 #include <scene/Smoke.h>
@@ -46,7 +47,7 @@ tyndall::Settings settingsOf(const Options& options) {
                        : options.technique == "tree"    ? tyndall::Technique::Tree
                        : options.technique == "lowrank" ? tyndall::Technique::LowRank
                                                         : tyndall::Technique::Epipolar;
-  settings.view = options.view;
+  settings.debugView = options.view;
   settings.shadowFilter = options.shadowFilter;
   settings.slices = options.slices.value_or(settings.slices);
   settings.samples = options.samples.value_or(settings.samples);
@@ -100,6 +101,7 @@ FrameRenderer::FrameRenderer(const Options& options)
   tyndall::Config config;
   config.loader = context_->loader();
   config.timing = timingFor(context_->driver());
+  if (options.programs) config.programs = host::programFiles(*options.programs);
   tyndall::CreateResult created = tyndall::Effect::create(config);
   if (!created.status) throw host::Error("effect: " + created.status.message);
   effect_ = std::move(created.effect);

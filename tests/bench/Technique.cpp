@@ -181,10 +181,10 @@ public:
     counts.rays = statistics.marchedSamples;
     counts.fixupPixels = statistics.fixupPixels;
     if (settings_.technique == tyndall::Technique::Exact) return counts;
-    renderBy(*counting, frame, tyndall::View::NodeVisits);
+    renderBy(*counting, frame, tyndall::DebugView::NodeVisits);
     counts.visitsPerRay = counting->statistics().visitsPerRay;
     if (settings_.technique != tyndall::Technique::Epipolar) return counts;
-    renderBy(*counting, frame, tyndall::View::MarchSamples);
+    renderBy(*counting, frame, tyndall::DebugView::MarchSamples);
     const std::vector<float> shown = host::readColour(frame.colour, frame.width, frame.height, 3);
     for (std::size_t i = 0; i < shown.size(); i += 3)
       counts.packedRays += 0.5 * shown[i] + shown[i + 1]; // red: breaks, green: bends
@@ -197,9 +197,10 @@ private:
     if (!created.effect) throw host::Error("effect: " + created.status.message);
     return std::move(created.effect);
   }
-  void renderBy(tyndall::Effect& effect, tyndall::Frame frame, tyndall::View view = tyndall::View::Composite) const {
+  void renderBy(tyndall::Effect& effect, tyndall::Frame frame,
+                tyndall::DebugView view = tyndall::DebugView::Composite) const {
     frame.settings = settings_;
-    frame.settings.view = view;
+    frame.settings.debugView = view;
     const tyndall::Status status = effect.render(frame);
     if (!status) throw host::Error("effect: " + status.message);
   }

@@ -65,6 +65,7 @@ double difference(const std::vector<float>& a, const std::vector<float>& b) {
 int run(render::Options options) {
   if (!options.frames) throw render::UsageError("--frames is missing");
   options.changes = Changes::Objects; // the renderer tells what moved
+  options.programs.reset();           // a measurement depends on no earlier one
   render::FrameRenderer renderer(options);
   std::array<Way, kWays.size()> ways;
   for (Way& way : ways)

@@ -1,7 +1,8 @@
 #include "ShaderSet.h"
 
-#include "AllPrograms.h"
+#include "avsm/Programs.h"
 #include "baselines/ShaderText.h"
+#include "plan/Passes.h"
 #include "support/PublicShaders.h"
 
 #include <algorithm>
@@ -19,12 +20,11 @@ namespace {
 
 // The values of definitions that have more to say than their names.
 const std::map<std::string, std::vector<std::string>> kWords = {
-    {"LIGHT_KIND", {"directional", "point", "spot", "no-light"}},
+    {"LIGHT_KIND", {"directional", "point", "spot"}},
     {"SHADOW_VIEWS", {"no-map", "one-view", "views"}},
     {"MONOCHROME", {"rgb", "grey"}},
     {"FILTER_BILINEAR", {"nearest", "bilinear"}},
     {"SHADOW_ARRAY", {"", "array"}},
-    {"DEPTH_MULTISAMPLED", {"", "multisampled"}},
     {"EXITS", {"entries", "exits"}},
 };
 
@@ -127,8 +127,8 @@ std::string nameInWords(const std::string& stem, const gl::Definitions& definiti
 
 std::vector<ShaderFile> allShaders() {
   Collector all;
-  addPrograms(effectPrograms(), all);
-  addPrograms(avsmPrograms(), all);
+  addPrograms(allVariants(), all);
+  addPrograms(avsm::allVariants(), all);
   for (const auto& shaders : {captureShaders(), insertShaders(), lookupShaders()})
     addPublic(shaders, all);
   addBaselines(all);

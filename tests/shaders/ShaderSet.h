@@ -1,7 +1,7 @@
 // Every shader of the project as a complete source, in files whose names say the variant in words.
 #pragma once
 
-#include "gl/Program.h"
+#include "gl/Variant.h"
 
 #include <string>
 #include <vector>

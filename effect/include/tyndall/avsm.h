@@ -16,7 +16,11 @@
 // The map has the light's shadow views, at a size of its own; engines that draw into it with glClipControl's
 // GL_UPPER_LEFT give its views matrices whose row y is negated, as for a shadow map. Depth in it is linear along the
 // view, 0 at its near and 1 at its far plane. All functions need the GL context current that create() saw: OpenGL 4.3
-// core or later.
+// core or later. A call whose status is not Ok leaves curves and lists as they
+// were. GL errors of the engine's that it
+// has not asked for are pending still. With StateMode::Leave resolve(), beginStreaming() and drawParticles() leave GL
+// as said at Effect but for the viewport, which they do not touch, and storage buffer bindings 0 to 2 and image unit 0
+// empty; these and begin() leave the generic binding of storage buffers 0.
 #pragma once
 
 #include <tyndall/tyndall.h>
@@ -41,6 +45,8 @@ struct AvsmConfig {
   /// Bytes that the lists may grow to, as far as frames need them; what is over is lost, in each list the deepest
   /// segments. At least one segment for each texel fits whatever this says.
   std::uint64_t mostListBytes = std::uint64_t{512} << 20;
+  ProgramStore programs = {};
+  StateMode state = StateMode::Restore;
 };
 
 /// About the last resolve(). Reading it waits for the GPU.
@@ -80,7 +86,7 @@ public:
 
   /// Instead of begin(): makes curves through which all light passes, into which segments are inserted as they come
   /// (Salvi et al. 2013, 4.1), in the order of drawing, whatever AvsmConfig::reduction says. No more memory is needed
-  /// than that of the curves. GL state on return equals GL state on entry.
+  /// than that of the curves. GL state on return is as AvsmConfig::state says.
   Status beginStreaming();
 
   /// After beginStreaming(): inserts particles, seen through the light's shadow views, each in a layer's place, in
@@ -88,17 +94,20 @@ public:
   /// better the curves: in the order of depth they are those of CurveReduction::Sorted. Packed curves are rounded to 16
   /// bits after each 4,096 particles and at the end. Nothing is drawn unless the status is Ok; it is InvalidFrame for
   /// a field that breaks its rule, a light without shadow views or with more than the map has layers, and a view for
-  /// which avsmDepth() fails. GL state on return equals GL state on entry.
+  /// which avsmDepth() fails. GL state on return is as AvsmConfig::state says.
   Status drawParticles(const Light& light, const AvsmParticles& particles);
 
   /// After beginStreaming(): binds as draw framebuffer one whose colour attachments are the curves of a layer, for
   /// shaders that include avsmInsert and call tyndallInsert(), which needs GL_EXT_shader_framebuffer_fetch. It stays
   /// until the engine binds another; no other state is changed: the viewport should be (0, 0, size, size), blending,
-  /// depth and stencil test off, all colours written. InvalidFrame for a layer that the map does not have.
+  /// depth and stencil test off, all colours written. InvalidFrame for a layer that the map does not have and where the
+  /// context cannot draw into curves.
   Status bindCurves(int layer);
 
-  /// Makes the curves of what was captured since begin(), or ends what beginStreaming() began. GL state on return
-  /// equals GL state on entry.
+  /// Makes the curves of what was captured since begin(), or ends what beginStreaming() began. Waits for the GPU while
+  /// nothing was captured in the newest frame that is known, the last or the one before: so that frames without smoke
+  /// have no curves. An engine that knows that it has none calls neither begin() nor this. GL state on return is as
+  /// AvsmConfig::state says.
   Status resolve();
 
   /// The curves, for Light::curves and for shaders that include avsmLookup. Their texture is 0 while nothing is known

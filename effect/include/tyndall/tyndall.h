@@ -99,7 +99,7 @@ struct ShadowView {
 struct ShadowMap {
   std::uint32_t texture =
       0;              ///< GL_TEXTURE_2D or GL_TEXTURE_2D_ARRAY, a depth format or R32F; 0: nothing blocks the light
-  bool array = false; ///< true for GL_TEXTURE_2D_ARRAY
+  bool array = false; ///< true for GL_TEXTURE_2D_ARRAY, which several views need
   ClipDepth clipDepth = ClipDepth::NegativeOneToOne;
   std::vector<ShadowView>
       views; ///< 1 to 6: 1-4 cascades (finest first) for a directional light, 1 for a spot, 6 for a point
@@ -192,7 +192,7 @@ enum class Profile { Performance, Balanced, High, Reference };
 /// given; outputs are written as ever. Colours are linear, mostly in [0, 1]. Views of slices and samples show the first
 /// light that is drawn, and black where none is. They need the technique that is said, and never a
 /// multisampled scene depth, which only Exact renders.
-enum class View {
+enum class DebugView {
   Composite, ///< the normal picture
   Slices,  ///< Tree, Epipolar, LowRank: each pixel's nearest slice: a hue for 16 of them, every second one darker; the
            ///< light's own place in the image white
@@ -213,7 +213,7 @@ enum class View {
 
 struct Settings {
   Technique technique = Technique::Epipolar;
-  View view = View::Composite;
+  DebugView debugView = DebugView::Composite;
   ShadowFilter shadowFilter = ShadowFilter::Nearest;
   int slices = 1152; ///< all but Exact: epipolar lines, 1 to 8192; never more than pixels on the visible border
   int samples = 512; ///< Epipolar: samples of a slice, a multiple of 64 from 64 to 8192; never denser than pixels
@@ -247,9 +247,10 @@ struct Settings {
 /// The settings of a profile. Reference is Technique::Exact.
 Settings settingsOf(Profile profile);
 
-/// How a frame says what changed in the depth buffer and in the shadow and glass maps since its view's last frame.
+/// How a frame says what changed in the depth buffer and in the shadow and glass maps since its eye's last frame: an
+/// eye is a camera of the engine's with the frames that it has shown.
 enum class Changes {
-  Unknown, ///< anything may have: the frame is drawn in full, and nothing is kept of the view
+  Unknown, ///< anything may have: the frame is drawn in full, and nothing is kept of the eye
   Detect,  ///< the effect compares them with the last frame's, but for those whose versions say that nothing changed
   Objects, ///< only what Frame::objects names, around which they are compared; versions are not looked at
 };
@@ -261,9 +262,9 @@ enum class Changes {
 /// Redrawn does. A light whose shadow views are too large to be marched at once is redrawn whole.
 struct Reuse {
   Changes changes = Changes::Unknown;
-  /// Which of the engine's views this is: each has a picture of its own, the last 4 that were drawn are kept.
-  std::uint64_t view = 0;
-  /// Changes::Objects: counts the view's frames; unless it is one more than at the last, all is drawn.
+  /// Which of the engine's eyes this is: each has a picture of its own, the last 4 that were drawn are kept.
+  std::uint64_t eye = 0;
+  /// Changes::Objects: counts the eye's frames; unless it is one more than at the last, all is drawn.
   std::uint64_t frame = 0;
   /// Share of the slices' segments over which, where that goes on, frames are drawn in full and nothing is kept of
   /// them, up to 16 at a time; 0 to 1.
@@ -273,18 +274,19 @@ struct Reuse {
 };
 
 /// The vertices of a mesh in a GL buffer: three floats each. They are read back once to fit a box around them, so that
-/// from then on a mesh costs what a box does, whatever its triangles. The last 1024 meshes are remembered, and for each
-/// view in what shape its last frame saw them: a mesh whose vertices the engine changes has a new version, and covers
-/// both shapes. A frame that is the first to name a mesh since the view was last drawn in full compares all of depth
-/// and maps once: name it in that full frame, too, and it does not. A mesh that a vertex shader deforms (skinning,
-/// wind) has its rest shape in the buffer: pass a box instead, one that holds all of its poses, in worldFromObject and
-/// lastWorldFromObject.
+/// from then on a mesh costs what a box does, whatever its triangles. No frame waits for them: they come some frames
+/// after the first that names the mesh, 4 MiB a frame, and until then a frame that names it compares all of depth and
+/// maps. So it is best named from the frame on in which the eye is drawn in full. The last 1024 meshes are remembered,
+/// and for each eye in what version its last frame saw them: a mesh whose vertices the engine changes has a new
+/// version, and covers both shapes once they are known. A mesh that the engine changes in every frame, or that a vertex
+/// shader deforms (skinning, wind), which has its rest shape in the buffer, is better passed as a box that holds all of
+/// its poses, in worldFromObject and lastWorldFromObject.
 struct MeshVertices {
   std::uint32_t buffer = 0;  ///< name of a buffer, not mapped but persistently; 0: no mesh
   std::uint64_t offset = 0;  ///< bytes to the first vertex's position
   std::uint32_t stride = 12; ///< bytes from one position to the next, at least 12
-  std::uint32_t count = 0;   ///< vertices, 1 to 2^24; all in the buffer and finite
-  std::uint64_t version = 0; ///< of what the buffer holds, as SceneDepth::version; 0: read anew in every frame
+  std::uint32_t count = 0;   ///< vertices, 1 to 2^24; all in the buffer and finite, which shows when they have come
+  std::uint64_t version = 0; ///< of what the buffer holds, as SceneDepth::version; 0: every frame compares all
 };
 
 /// An object that moved, appeared or vanished: what holds all of it in the last frame and in this one, a box or its
@@ -292,7 +294,7 @@ struct MeshVertices {
 struct MovingObject {
   /// Places the cube from -1 to 1 around the object, or the mesh from its own coordinates: affine, invertible.
   Mat4 worldFromObject = kIdentity;
-  Mat4 lastWorldFromObject = kIdentity; ///< as it was in the view's last frame
+  Mat4 lastWorldFromObject = kIdentity; ///< as it was in the eye's last frame
   MeshVertices mesh = {};
 };
 
@@ -316,7 +318,7 @@ struct Frame {
   Settings settings;
   Output output;
   Reuse reuse;
-  std::vector<MovingObject> objects; ///< for Changes::Objects: all that moved since the view's last frame
+  std::vector<MovingObject> objects; ///< for Changes::Objects: all that moved since the eye's last frame
 };
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -334,18 +336,19 @@ struct PassStatistics {
 
 struct Statistics {
   std::vector<PassStatistics> passes;
-  std::uint64_t bytes = 0;       ///< GL memory the effect holds in textures and buffers
-  int compiledPrograms = 0;      ///< shader variants compiled so far
+  /// GL memory the effect holds in textures and buffers: at most what the last 8 frames needed, of each of the last 4
+  /// eyes that are kept
+  std::uint64_t bytes = 0;
+  int compiledPrograms = 0;      ///< programs built so far
   std::uint64_t fixupPixels = 0; ///< pixels that were marched by themselves after epipolar sampling
   /// Camera rays integrated, over all lights, and over parts of a light's shadow views where those are too large to be
-  /// marched at once; march samples that are integrated together, up to four of a slice, count as one. Reading it waits
-  /// for the GPU.
+  /// marched at once; march samples that are integrated together, up to four of a slice, count as one.
   std::uint64_t marchedSamples = 0;
   /// Share of the slices' segments, over all lights, that were marched: 1 for a frame drawn in full, 0 for one that
-  /// only composites what is kept. With Changes::Detect reading it waits for the GPU.
+  /// only composites what is kept.
   double redrawnShare = 1;
-  /// With View::NodeVisits what that view shows, as a mean over the image: nodes and groups of texels that a ray looks
-  /// at, in all shadow views of the first light. Else 0.
+  /// With DebugView::NodeVisits what that view shows, as a mean over the image: nodes and groups of texels that a ray
+  /// looks at, in all shadow views of the first light. Else 0.
   double visitsPerRay = 0;
 };
 
@@ -369,7 +372,7 @@ enum class StateMode {
 struct Config {
   GlLoader loader = nullptr;
   PassTiming timing = PassTiming::Off;
-  ProgramStore programs;
+  ProgramStore programs = {};
   StateMode state = StateMode::Restore;
 };
 
@@ -382,6 +385,15 @@ struct PrepareStatus {
 
 struct CreateResult;
 
+/// With StateMode::Leave render(), prepare() and compileAll() leave: program, vertex array, draw framebuffer,
+/// renderbuffer, the buffers for uniforms (bindings 0 to 2 too) and for unpacking pixels 0; texture units, as many as
+/// it used from 0 on, without textures and samplers, unit 0 active; GL_UNPACK_* at their defaults; blending off, its
+/// equations GL_FUNC_ADD, its factors GL_ONE and GL_ZERO, all colours written, for all draw buffers; the stencil's
+/// function, operation and mask at their defaults; polygons filled; clip control at its default; off: culling, depth,
+/// stencil and scissor test, logic operation, rasterizer discard, sRGB framebuffers, sample mask and coverage, alpha to
+/// coverage and to one, smooth polygons, dithering, clip distances; the viewport as wide and high as the frame, or as
+/// it was if nothing was drawn. create() and a call that finds no context, another one or transform feedback active
+/// leave all as it was.
 class Effect {
 public:
   /// Builds an effect in the current context: OpenGL 3.3 core or later. Shaders compile when first needed.
@@ -396,11 +408,12 @@ public:
   /// render()'s for a frame that breaks a rule, ShaderError for a program that does not build.
   PrepareStatus prepare(const Frame& frame);
 
-  /// Adds the shafts to the frame. Unless the status is Ok nothing was drawn and the colour is untouched. GL state on
-  /// return equals GL state on entry.
+  /// Adds the shafts to the frame. Unless the status is Ok nothing was drawn, and colour and outputs are untouched,
+  /// whatever failed. Does not wait for the GPU. Frames like those before make no GL object. GL state on return is as
+  /// Config::state says. GL errors of the engine's that it has not asked for are pending still.
   Status render(const Frame& frame);
 
-  /// About the last render(). With PassTiming::TimerQuery this waits for the GPU.
+  /// About the last render(); waits for the GPU.
   Statistics statistics();
 
   /// Compiles every shader variant now instead of when first needed.

@@ -7,7 +7,8 @@
 #include "avsm/Lists.h"
 #include "avsm/Particles.h"
 #include "avsm/StorageGuard.h"
-#include "gl/Program.h"
+#include "gl/OwnErrors.h"
+#include "gl/ProgramCache.h"
 #include "gl/ShaderSources.h"
 #include "gl/StateGuard.h"
 #include "optics/Matrices.h"
@@ -45,6 +46,8 @@ Status checkConfig(const AvsmConfig& config) {
     return invalid("nodes", std::to_string(config.nodes), "must be 4, 8, 12 or 16");
   if (config.reduction < CurveReduction::WholeCurve || config.reduction > CurveReduction::InOrder)
     return invalid("reduction", std::to_string(static_cast<int>(config.reduction)), "must be one of the enumerators");
+  if (config.state < StateMode::Restore || config.state > StateMode::Leave)
+    return invalid("state", std::to_string(static_cast<int>(config.state)), "must be one of the enumerators");
   return {};
 }
 
@@ -70,20 +73,35 @@ Status checkLimits(const gl::Functions& gl, const AvsmConfig& config) {
 
 // What a function of OpenGL 4.3 that is missing is called; empty if none is.
 std::string missingFunction(const gl::Functions& gl) {
-  const std::pair<const char*, bool> all[] = {{"glDispatchCompute", gl.DispatchCompute},
-                                              {"glMemoryBarrier", gl.MemoryBarrier},
-                                              {"glBindImageTexture", gl.BindImageTexture},
-                                              {"glTexStorage3D", gl.TexStorage3D},
-                                              {"glBufferSubData", gl.BufferSubData},
-                                              {"glClearBufferSubData", gl.ClearBufferSubData},
-                                              {"glCopyBufferSubData", gl.CopyBufferSubData},
-                                              {"glFenceSync", gl.FenceSync},
-                                              {"glClientWaitSync", gl.ClientWaitSync},
-                                              {"glDeleteSync", gl.DeleteSync},
-                                              {"glFramebufferTextureLayer", gl.FramebufferTextureLayer}};
+  const std::pair<const char*, bool> all[] = {
+      {"glDispatchCompute", gl.DispatchCompute},       {"glMemoryBarrier", gl.MemoryBarrier},
+      {"glBindImageTexture", gl.BindImageTexture},     {"glTexStorage3D", gl.TexStorage3D},
+      {"glClearBufferSubData", gl.ClearBufferSubData}, {"glFramebufferTextureLayer", gl.FramebufferTextureLayer}};
   for (const auto& [name, known] : all)
     if (!known) return name;
   return {};
+}
+
+// A dispatch over the map.
+struct Pass {
+  const char* name;
+  const char* file;
+  gl::Definitions definitions;
+};
+
+// From lists to curves; to reduce whole curves in the order of exits as well.
+std::vector<Pass> passesOf(const AvsmConfig& config) {
+  const gl::Definitions curves = avsm::curveDefinitions(config.nodes, config.packed);
+  std::vector<Pass> passes;
+  if (config.reduction != CurveReduction::InOrder)
+    passes.push_back({"sort entries", "passes/avsmSort.comp", {{"EXITS", 0}}});
+  if (config.reduction == CurveReduction::WholeCurve) {
+    passes.push_back({"sort exits", "passes/avsmSort.comp", {{"EXITS", 1}}});
+    passes.push_back({"reduce", "passes/avsmReduce.comp", curves});
+  } else {
+    passes.push_back({"insert", "passes/avsmInsert.comp", curves});
+  }
+  return passes;
 }
 
 constexpr int kGroup = 8; // texels across and up a work group (lib/avsm.glsl)
@@ -96,7 +114,7 @@ constexpr gl::Bitfield kBarriers = gl::SHADER_STORAGE_BARRIER_BIT | gl::TEXTURE_
 } // namespace
 
 struct Avsm::State {
-  explicit State(const AvsmConfig& c) : config(c), watch(gl), programs(gl), recorder(gl, c.timing) {}
+  explicit State(const AvsmConfig& c) : config(c), watch(gl), programs(gl, c.programs), recorder(gl, c.timing) {}
 
   AvsmConfig config;
   gl::Functions gl;
@@ -119,14 +137,17 @@ struct Avsm::State {
   Status beginStreaming();
   Status drawParticles(const Light& light, const AvsmParticles& particles);
   Status bindCurves(int layer);
-  Status makeCurves();
+  void makeCurves();
   Status makeObjects();
+  Status allocate();
   Status checkStreaming(const char* function) const;
+  Status build(const Pass& pass);
+  Status attachCurves(int layer);
   using Uniforms = std::vector<std::pair<const char*, gl::Int>>;
-  Status run(const std::string& name, const std::string& file, const gl::Definitions& definitions,
-             const Uniforms& uniforms = {}, int layers = 0);
-  Status insertParticles(const AvsmParticles& particles, int views);
-  Status makeOrder();
+  void run(const Pass& pass, const Uniforms& uniforms = {}, int layers = 0);
+  void insertParticles(const AvsmParticles& particles, int views);
+  Pass emptyPass() const { return {"empty", "passes/avsmEmpty.comp", {}}; }
+  Pass particlesPass() const { return {"particles", "passes/avsmParticles.comp", curveDefinitions()}; }
   std::uint64_t curveBytes() const {
     return std::uint64_t{16} * static_cast<std::uint64_t>(config.size) * static_cast<std::uint64_t>(config.size) *
            static_cast<std::uint64_t>(curveLayersOf(config));
@@ -182,7 +203,7 @@ AvsmCurves Avsm::curves() const {
 
 AvsmStatistics Avsm::statistics() {
   State& state = *state_;
-  const avsm::BufferGuard guard(state.gl);
+  const avsm::BufferGuard guard(state.gl, state.config.state);
   const avsm::ListsHeader header = state.version > 0 && !state.streamed ? state.lists->wait() : avsm::ListsHeader{};
   return {state.recorder.collect(), header.captured(), header.lost, state.lists->bytes(), state.curveBytes()};
 }
@@ -196,11 +217,11 @@ Status Avsm::State::begin(std::uint32_t firstBinding) {
     return {StatusCode::InvalidConfig, "firstBinding is " + std::to_string(firstBinding) +
                                            ": this and the next must be below this context's " +
                                            std::to_string(bindings) + " storage buffer bindings"};
-  const avsm::BufferGuard guard(gl);
-  began = State::Began::Nothing;
-  gl.MemoryBarrier(gl::BUFFER_UPDATE_BARRIER_BIT); // shaders wrote what is emptied
+  const avsm::BufferGuard guard(gl, config.state);
   if (lists->receive()) mayBeEmpty = lists->known().firsts == 0;
-  if (Status s = lists->empty(); !s) return s;
+  if (Status s = lists->makeRoom(); !s) return s;
+  gl.MemoryBarrier(gl::BUFFER_UPDATE_BARRIER_BIT); // shaders wrote what is emptied
+  lists->empty();
   lists->bind(firstBinding, false);
   began = State::Began::Capture;
   return {};
@@ -209,53 +230,59 @@ Status Avsm::State::begin(std::uint32_t firstBinding) {
 Status Avsm::State::resolve() {
   if (began == State::Began::Nothing)
     return {StatusCode::InvalidFrame, "Avsm::resolve needs a begin() or beginStreaming() before it"};
-  streamed = began == State::Began::Streaming;
-  began = State::Began::Nothing;
-  ++version;
-  if (streamed) {
+  if (began == State::Began::Streaming) {
     gl.MemoryBarrier(kBarriers);
+    streamed = true;
+    began = State::Began::Nothing;
+    ++version;
     return {};
   }
-  const gl::StateGuard guard(gl);
-  const avsm::StorageGuard storageGuard(gl);
+  const gl::StateGuard guard(gl, config.state);
+  const avsm::StorageGuard storageGuard(gl, config.state);
+  for (const Pass& pass : passesOf(config))
+    if (Status s = build(pass); !s) return s;
+  streamed = false;
+  began = State::Began::Nothing;
+  ++version;
   recorder.beginFrame();
   gl.MemoryBarrier(gl::SHADER_STORAGE_BARRIER_BIT | gl::BUFFER_UPDATE_BARRIER_BIT);
   lists->send();
   // Scenes without smoke pay a wait instead of passes; the others do not wait.
   if (mayBeEmpty) mayBeEmpty = lists->wait().firsts == 0;
   holds = !mayBeEmpty;
-  if (!holds) {
+  if (holds)
+    makeCurves();
+  else
     recorder.skip("curves", "no segment was captured");
-    return {};
-  }
-  Status status = makeCurves();
-  holds = static_cast<bool>(status);
-  return status;
+  return {};
 }
 
 Status Avsm::State::beginStreaming() {
-  const gl::StateGuard guard(gl);
-  const avsm::StorageGuard storageGuard(gl);
-  began = State::Began::Nothing;
+  const gl::StateGuard guard(gl, config.state);
+  const avsm::StorageGuard storageGuard(gl, config.state);
+  if (Status s = build(emptyPass()); !s) return s;
   recorder.beginFrame();
   gl.BindImageTexture(0, curves.name(), 0, 1, 0, gl::WRITE_ONLY, gl::RGBA32UI);
-  Status status = run("empty", "passes/avsmEmpty.comp", curveDefinitions());
-  holds = static_cast<bool>(status);
-  if (status) began = State::Began::Streaming;
-  return status;
+  constexpr gl::Int kPackedOne = -1, kOne = 0x3F800000; // depth and transmittance 1, in bits
+  run(emptyPass(), {{"clearWord", config.packed ? kPackedOne : kOne}});
+  holds = true;
+  began = State::Began::Streaming;
+  return {};
 }
 
 Status Avsm::State::drawParticles(const Light& light, const AvsmParticles& particles) {
   if (Status s = checkStreaming("drawParticles"); !s) return s;
-  const gl::StateGuard guard(gl);
-  const avsm::StorageGuard storageGuard(gl);
+  const gl::StateGuard guard(gl, config.state);
+  const avsm::StorageGuard storageGuard(gl, config.state);
   if (Status s = avsm::checkParticles(gl, light, particles, config.layers); !s) return s;
+  if (Status s = build(particlesPass()); !s) return s;
   const avsm::ParticlesBlock block = avsm::particlesBlock(light, particles.origin, config.size);
   gl.BindBufferBase(gl::UNIFORM_BUFFER, 0, particlesBlock.name());
-  gl.BufferData(gl::UNIFORM_BUFFER, sizeof block, block.data(), gl::STREAM_DRAW);
+  gl.BufferSubData(gl::UNIFORM_BUFFER, 0, sizeof block, block.data());
   gl.BindImageTexture(0, curves.name(), 0, 1, 0, gl::READ_WRITE, gl::RGBA32UI);
   gl.MemoryBarrier(kBarriers);
-  return insertParticles(particles, static_cast<int>(light.shadow.views.size()));
+  insertParticles(particles, static_cast<int>(light.shadow.views.size()));
+  return {};
 }
 
 Status Avsm::State::bindCurves(int layer) {
@@ -263,6 +290,15 @@ Status Avsm::State::bindCurves(int layer) {
   if (layer < 0 || layer >= config.layers)
     return {StatusCode::InvalidFrame,
             "layer is " + std::to_string(layer) + ": the map has " + std::to_string(config.layers) + " layers"};
+  gl::Int bound = 0;
+  gl.GetIntegerv(gl::DRAW_FRAMEBUFFER_BINDING, &bound);
+  Status status = attachCurves(layer);
+  if (!status) gl.BindFramebuffer(gl::DRAW_FRAMEBUFFER, static_cast<gl::Uint>(bound));
+  return status;
+}
+
+// To a framebuffer that stays bound.
+Status Avsm::State::attachCurves(int layer) {
   if (!framebuffer) framebuffer = gl::Framebuffer(gl);
   gl.BindFramebuffer(gl::DRAW_FRAMEBUFFER, framebuffer.name());
   const int count = curveLayersOf(config) / config.layers;
@@ -272,49 +308,50 @@ Status Avsm::State::bindCurves(int layer) {
     gl.FramebufferTextureLayer(gl::DRAW_FRAMEBUFFER, buffers.back(), curves.name(), 0, layer * count + i);
   }
   gl.DrawBuffers(count, buffers.data());
-  return {};
+  if (gl.CheckFramebufferStatus(gl::DRAW_FRAMEBUFFER) == gl::FRAMEBUFFER_COMPLETE) return {};
+  return {StatusCode::InvalidFrame, "this context cannot draw into curves of " + std::to_string(config.nodes) +
+                                        " nodes: " + std::to_string(count) + " layers of RGBA32UI"};
 }
 
 Status Avsm::State::makeObjects() {
-  const gl::StateGuard guard(gl);
-  const avsm::BufferGuard bufferGuard(gl);
+  const gl::StateGuard guard(gl, StateMode::Restore);
+  const avsm::BufferGuard bufferGuard(gl, StateMode::Restore);
+  watch.mark();
+  return allocate();
+}
+
+Status Avsm::State::allocate() {
+  gl::OwnErrors errors(gl);
   lists = std::make_unique<avsm::Lists>(gl, config.size, config.layers, config.mostListBytes);
   curves = gl::Texture(gl);
   particlesBlock = gl::Buffer(gl);
-  gl.ActiveTexture(gl::TEXTURE0);
+  gl.BindBuffer(gl::UNIFORM_BUFFER, particlesBlock.name());
+  gl.BufferData(gl::UNIFORM_BUFFER, sizeof(avsm::ParticlesBlock), nullptr, gl::DYNAMIC_DRAW);
   gl.BindTexture(gl::TEXTURE_2D_ARRAY, curves.name());
-  avsm::clearErrors(gl);
   gl.TexStorage3D(gl::TEXTURE_2D_ARRAY, 1, gl::RGBA32UI, config.size, config.size, curveLayersOf(config));
-  if (gl.GetError() != gl::NO_ERROR)
+  if (errors.take() != gl::NO_ERROR)
     return {StatusCode::OutOfMemory, "GL could not allocate " + std::to_string(curveBytes()) + " bytes for curves"};
   for (const gl::Enum filter : {gl::TEXTURE_MIN_FILTER, gl::TEXTURE_MAG_FILTER})
     gl.TexParameteri(gl::TEXTURE_2D_ARRAY, filter, gl::NEAREST);
   return {};
 }
 
-Status Avsm::State::run(const std::string& name, const std::string& file, const gl::Definitions& definitions,
-                        const Uniforms& uniforms, int layers) {
-  const gl::Uint program = programs.useCompute(file, definitions);
-  if (!program) return {StatusCode::ShaderError, "a shader did not build: " + programs.error()};
+// Whatever can refuse a pass, before anything is changed.
+Status Avsm::State::build(const Pass& pass) {
+  if (programs.useCompute(pass.file, pass.definitions)) return {};
+  return {StatusCode::ShaderError, "a shader did not build: " + programs.error()};
+}
+
+void Avsm::State::run(const Pass& pass, const Uniforms& uniforms, int layers) {
+  const gl::Uint program = programs.useCompute(pass.file, pass.definitions);
   for (const auto& [uniform, value] : uniforms)
     gl.Uniform1i(gl.GetUniformLocation(program, uniform), value);
-  recorder.run(name, [&] {
+  recorder.run(pass.name, [&] {
     const auto groups = static_cast<gl::Uint>((config.size + kGroup - 1) / kGroup);
     gl.DispatchCompute(groups, groups, static_cast<gl::Uint>(layers > 0 ? layers : config.layers));
     gl.MemoryBarrier(kBarriers);
     return true;
   });
-  return {};
-}
-
-// The lists in the order of entries; to reduce whole curves, of exits as well.
-Status Avsm::State::makeOrder() {
-  const bool withExits = config.reduction == CurveReduction::WholeCurve;
-  for (int exits = 0; exits < (withExits ? 2 : 1); ++exits) {
-    const std::string name = exits == 1 ? "sort exits" : "sort entries";
-    if (Status s = run(name, "passes/avsmSort.comp", {{"EXITS", exits}}); !s) return s;
-  }
-  return {};
 }
 
 // Of calls that use programs.
@@ -329,7 +366,7 @@ Status Avsm::State::checkStreaming(const char* function) const {
   return {};
 }
 
-Status Avsm::State::insertParticles(const AvsmParticles& particles, int views) {
+void Avsm::State::insertParticles(const AvsmParticles& particles, int views) {
   gl::Int alignment = 0;
   gl.GetIntegerv(gl::SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT, &alignment);
   for (std::uint32_t first = 0; first < particles.count;) {
@@ -342,20 +379,16 @@ Status Avsm::State::insertParticles(const AvsmParticles& particles, int views) {
     const Uniforms uniforms = {{"firstFloat", static_cast<gl::Int>((at - start) / 4)},
                                {"stride", static_cast<gl::Int>(particles.stride / 4)},
                                {"count", static_cast<gl::Int>(count)}};
-    if (Status s = run("particles", "passes/avsmParticles.comp", curveDefinitions(), uniforms, views); !s) return s;
+    run(particlesPass(), uniforms, views);
     first += count;
   }
-  return {};
 }
 
-Status Avsm::State::makeCurves() {
+void Avsm::State::makeCurves() {
   lists->bind(0, true);
   gl.BindImageTexture(0, curves.name(), 0, 1, 0, gl::WRITE_ONLY, gl::RGBA32UI);
-  if (config.reduction != CurveReduction::InOrder)
-    if (Status s = makeOrder(); !s) return s;
-  const bool whole = config.reduction == CurveReduction::WholeCurve;
-  return run(whole ? "reduce" : "insert", whole ? "passes/avsmReduce.comp" : "passes/avsmInsert.comp",
-             curveDefinitions());
+  for (const Pass& pass : passesOf(config))
+    run(pass);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 // What a curve is to shaders.
 #pragma once
 
-#include "gl/Program.h"
+#include "gl/Variant.h"
 
 namespace tyndall::avsm {
 

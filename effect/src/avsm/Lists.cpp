@@ -1,7 +1,10 @@
 #include "avsm/Lists.h"
 
+#include "gl/OwnErrors.h"
+
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace tyndall::avsm {
 
@@ -16,18 +19,12 @@ std::uint64_t listsOf(int size, int layers) {
 
 } // namespace
 
-void clearErrors(const gl::Functions& gl) {
-  for (int i = 0; i < 16 && gl.GetError() != gl::NO_ERROR; ++i) {
-  }
-}
-
 std::uint64_t leastBufferBytes(int size, int layers) {
   return sizeof(ListsHeader) + listsOf(size, layers) * std::max(kListBytes, kSegmentBytes);
 }
 
 Lists::Lists(const gl::Functions& gl, int size, int layers, std::uint64_t mostBytes)
-    : gl_(gl), lists_(listsOf(size, layers)), mostBytes_(mostBytes), listBuffer_(gl), segmentBuffer_(gl),
-      exitBuffer_(gl) {
+    : gl_(gl), lists_(listsOf(size, layers)), mostBytes_(mostBytes) {
   empty_.width = empty_.height = size;
   empty_.layers = layers;
   for (Reading& reading : readings_) {
@@ -58,28 +55,34 @@ std::uint64_t Lists::bytes() const {
   return sizeof(ListsHeader) + lists_ * kListBytes + (lists_ + room_) * (kSegmentBytes + kExitBytes);
 }
 
-Status Lists::allocate(const gl::Buffer& buffer, std::uint64_t bytes) const {
+Status Lists::allocate(gl::Buffer& buffer, std::uint64_t bytes) const {
+  buffer = gl::Buffer(gl_);
   gl_.BindBuffer(gl::SHADER_STORAGE_BUFFER, buffer.name());
-  clearErrors(gl_);
+  gl::OwnErrors errors(gl_);
   gl_.BufferData(gl::SHADER_STORAGE_BUFFER, static_cast<gl::Sizeiptr>(bytes), nullptr, gl::DYNAMIC_COPY);
-  if (gl_.GetError() == gl::NO_ERROR) return {};
+  if (errors.take() == gl::NO_ERROR) return {};
   return {StatusCode::OutOfMemory, "GL could not allocate " + std::to_string(bytes) + " bytes for captured segments"};
 }
 
-Status Lists::empty() {
+Status Lists::makeRoom() {
   const std::uint64_t needed = allocated_ ? known_.taken : kFirstPerList * lists_;
-  const std::uint64_t room = needed > room_ || !allocated_ ? std::min(mostRoom(), needed + needed / 4) : room_;
-  if (!allocated_) {
-    if (Status s = allocate(listBuffer_, sizeof(ListsHeader) + lists_ * kListBytes); !s) return s;
-  }
-  if (!allocated_ || room > room_) {
-    allocated_ = false;
-    room_ = 0;
-    if (Status s = allocate(segmentBuffer_, (lists_ + room) * kSegmentBytes); !s) return s;
-    if (Status s = allocate(exitBuffer_, (lists_ + room) * kExitBytes); !s) return s;
-    room_ = room;
-    allocated_ = true;
-  }
+  if (allocated_ && needed <= room_) return {};
+  const std::uint64_t room = std::min(mostRoom(), needed + needed / 4);
+  if (allocated_ && room <= room_) return {};
+  gl::Buffer lists, segments, exits;
+  if (!allocated_)
+    if (Status s = allocate(lists, sizeof(ListsHeader) + lists_ * kListBytes); !s) return s;
+  if (Status s = allocate(segments, (lists_ + room) * kSegmentBytes); !s) return s;
+  if (Status s = allocate(exits, (lists_ + room) * kExitBytes); !s) return s;
+  if (!allocated_) listBuffer_ = std::move(lists);
+  segmentBuffer_ = std::move(segments);
+  exitBuffer_ = std::move(exits);
+  room_ = room;
+  allocated_ = true;
+  return {};
+}
+
+void Lists::empty() const {
   gl_.BindBuffer(gl::SHADER_STORAGE_BUFFER, listBuffer_.name());
   ListsHeader header = empty_;
   header.room = static_cast<std::uint32_t>(room_);
@@ -89,7 +92,6 @@ Status Lists::empty() {
   gl_.ClearBufferSubData(gl::SHADER_STORAGE_BUFFER, gl::RGBA32UI, sizeof header,
                          static_cast<gl::Sizeiptr>(lists_ * kListBytes), gl::RGBA_INTEGER, gl::UNSIGNED_INT,
                          kEmptyList);
-  return {};
 }
 
 void Lists::bind(gl::Uint first, bool withExits) const {

@@ -28,18 +28,20 @@ public:
   Lists(const Lists&) = delete;
   Lists& operator=(const Lists&) = delete;
 
-  /// Empties the lists, with room for what the newest frame that is known needed. Binds buffers to the generic storage
-  /// target.
-  Status empty();
+  /// Makes room for what the newest frame that is known needed; if GL has none, the lists are as they were. Binds
+  /// buffers to the generic storage target, as all others do.
+  Status makeRoom();
+  /// Empties the lists, once there is room.
+  void empty() const;
   /// Binds lists and segments to storage binding `first` and the next, and, if asked for, the links of exits to the one
   /// behind those.
   void bind(gl::Uint first, bool withExits) const;
 
   /// Has the header of this frame sent back. Binds buffers to the generic storage and uniform targets.
   void send();
-  /// Looks, without waiting, for a header that has come back; true if there is a newer one. Binds as empty() does.
+  /// Looks, without waiting, for a header that has come back; true if there is a newer one.
   bool receive();
-  /// Waits for the header sent last. Binds as empty() does.
+  /// Waits for the header sent last.
   ListsHeader wait() const;
   /// The newest that receive() found.
   const ListsHeader& known() const { return known_; }
@@ -52,7 +54,7 @@ private:
     gl::Sync sync = nullptr; // null if there is nothing to come
   };
 
-  Status allocate(const gl::Buffer& buffer, std::uint64_t bytes) const;
+  Status allocate(gl::Buffer& buffer, std::uint64_t bytes) const;
   std::uint64_t mostRoom() const;
   ListsHeader read(const Reading& reading) const;
   void forget(Reading& reading) const;
@@ -68,9 +70,6 @@ private:
   std::array<Reading, 3> readings_; // of the last frames: as many as an engine has under way
   std::size_t sent_ = 0;
 };
-
-/// Forgets errors of the engine's, of which GL keeps some; a context that is lost has one more each time.
-void clearErrors(const gl::Functions& gl);
 
 /// Bytes of the largest storage buffer that lists of this size need at least.
 std::uint64_t leastBufferBytes(int size, int layers);

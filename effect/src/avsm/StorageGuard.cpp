@@ -2,20 +2,24 @@
 
 namespace tyndall::avsm {
 
-StorageGuard::StorageGuard(const gl::Functions& gl) : gl_(gl) {
-  gl.GetIntegerv(gl::SHADER_STORAGE_BUFFER_BINDING, &buffer_);
+StorageGuard::StorageGuard(const gl::Functions& gl, StateMode mode) : gl_(gl) {
+  if (mode == StateMode::Restore) save();
+}
+
+void StorageGuard::save() {
+  gl_.GetIntegerv(gl::SHADER_STORAGE_BUFFER_BINDING, &buffer_);
   for (std::size_t i = 0; i < bindings_.size(); ++i) {
     const auto index = static_cast<gl::Uint>(i);
-    gl.GetIntegeri_v(gl::SHADER_STORAGE_BUFFER_BINDING, index, &bindings_[i].buffer);
-    gl.GetInteger64i_v(gl::SHADER_STORAGE_BUFFER_START, index, &bindings_[i].start);
-    gl.GetInteger64i_v(gl::SHADER_STORAGE_BUFFER_SIZE, index, &bindings_[i].size);
+    gl_.GetIntegeri_v(gl::SHADER_STORAGE_BUFFER_BINDING, index, &bindings_[i].buffer);
+    gl_.GetInteger64i_v(gl::SHADER_STORAGE_BUFFER_START, index, &bindings_[i].start);
+    gl_.GetInteger64i_v(gl::SHADER_STORAGE_BUFFER_SIZE, index, &bindings_[i].size);
   }
-  gl.GetIntegeri_v(gl::IMAGE_BINDING_NAME, 0, &image_.name);
-  gl.GetIntegeri_v(gl::IMAGE_BINDING_LEVEL, 0, &image_.level);
-  gl.GetIntegeri_v(gl::IMAGE_BINDING_LAYERED, 0, &image_.layered);
-  gl.GetIntegeri_v(gl::IMAGE_BINDING_LAYER, 0, &image_.layer);
-  gl.GetIntegeri_v(gl::IMAGE_BINDING_ACCESS, 0, &image_.access);
-  gl.GetIntegeri_v(gl::IMAGE_BINDING_FORMAT, 0, &image_.format);
+  gl_.GetIntegeri_v(gl::IMAGE_BINDING_NAME, 0, &image_.name);
+  gl_.GetIntegeri_v(gl::IMAGE_BINDING_LEVEL, 0, &image_.level);
+  gl_.GetIntegeri_v(gl::IMAGE_BINDING_LAYERED, 0, &image_.layered);
+  gl_.GetIntegeri_v(gl::IMAGE_BINDING_LAYER, 0, &image_.layer);
+  gl_.GetIntegeri_v(gl::IMAGE_BINDING_ACCESS, 0, &image_.access);
+  gl_.GetIntegeri_v(gl::IMAGE_BINDING_FORMAT, 0, &image_.format);
 }
 
 StorageGuard::~StorageGuard() {
@@ -34,8 +38,8 @@ StorageGuard::~StorageGuard() {
                        image_.layer, static_cast<gl::Enum>(image_.access), static_cast<gl::Enum>(image_.format));
 }
 
-BufferGuard::BufferGuard(const gl::Functions& gl) : gl_(gl) {
-  gl.GetIntegerv(gl::SHADER_STORAGE_BUFFER_BINDING, &buffer_);
+BufferGuard::BufferGuard(const gl::Functions& gl, StateMode mode) : gl_(gl) {
+  if (mode == StateMode::Restore) gl.GetIntegerv(gl::SHADER_STORAGE_BUFFER_BINDING, &buffer_);
 }
 
 BufferGuard::~BufferGuard() { gl_.BindBuffer(gl::SHADER_STORAGE_BUFFER, static_cast<gl::Uint>(buffer_)); }

@@ -1,10 +1,12 @@
-// Gives back what the passes of an AVSM change beyond gl::StateGuard: storage buffers and an image unit (OpenGL 4.3).
+// Gives back, or leaves empty, what the passes of an AVSM change beyond gl::StateGuard: storage buffers and an image
+// unit (OpenGL 4.3).
 #pragma once
 
 #include "gl/Enums.h"
 #include "gl/Functions.h"
 
 #include <array>
+#include <tyndall/tyndall.h>
 
 namespace tyndall::avsm {
 
@@ -12,7 +14,7 @@ inline constexpr int kStorageBindings = 3; ///< storage buffer bindings 0..2 and
 
 class StorageGuard {
 public:
-  explicit StorageGuard(const gl::Functions& gl);
+  StorageGuard(const gl::Functions& gl, StateMode mode);
   ~StorageGuard();
   StorageGuard(const StorageGuard&) = delete;
   StorageGuard& operator=(const StorageGuard&) = delete;
@@ -23,8 +25,10 @@ private:
     gl::Int64 start = 0, size = 0;
   };
   struct Image {
-    gl::Int name = 0, level = 0, layered = 0, layer = 0, access = 0, format = 0;
+    gl::Int name = 0, level = 0, layered = 0, layer = 0, access = gl::READ_ONLY, format = gl::R32F;
   };
+
+  void save();
 
   const gl::Functions& gl_;
   gl::Int buffer_ = 0;
@@ -32,10 +36,10 @@ private:
   Image image_;
 };
 
-/// Gives back the generic storage buffer binding only.
+/// The generic storage buffer binding only.
 class BufferGuard {
 public:
-  explicit BufferGuard(const gl::Functions& gl);
+  BufferGuard(const gl::Functions& gl, StateMode mode);
   ~BufferGuard();
   BufferGuard(const BufferGuard&) = delete;
   BufferGuard& operator=(const BufferGuard&) = delete;

@@ -75,6 +75,7 @@ using Sync = void*;
   X(void, BindBufferBase, (Enum target, Uint index, Uint buffer), UniformBuffers)                                      \
   X(void, BindBufferRange, (Enum target, Uint index, Uint buffer, Intptr offset, Sizeiptr size), UniformBuffers)       \
   X(void, BufferData, (Enum target, Sizeiptr size, const void* data, Enum usage), None)                                \
+  X(void, BufferSubData, (Enum target, Intptr offset, Sizeiptr size, const void* data), None)                          \
   X(Boolean, IsBuffer, (Uint buffer), None)                                                                            \
   X(void, GetBufferParameteriv, (Enum target, Enum name, Int * value), None)                                           \
   X(void, GetBufferParameteri64v, (Enum target, Enum name, Int64 * value), None)                                       \
@@ -103,6 +104,8 @@ using Sync = void*;
   X(void, GetProgramInfoLog, (Uint program, Sizei size, Sizei * length, Char * log), None)                             \
   X(void, UseProgram, (Uint program), Program)                                                                         \
   X(Int, GetUniformLocation, (Uint program, const Char* name), None)                                                   \
+  X(void, GetActiveUniformsiv, (Uint program, Sizei n, const Uint* indices, Enum name, Int* values), None)             \
+  X(void, GetActiveUniformName, (Uint program, Uint index, Sizei size, Sizei * length, Char * text), None)             \
   X(void, Uniform1i, (Int location, Int value), None)                                                                  \
   X(Uint, GetUniformBlockIndex, (Uint program, const Char* name), None)                                                \
   X(void, UniformBlockBinding, (Uint program, Uint index, Uint binding), None)                                         \
@@ -133,10 +136,16 @@ using Sync = void*;
   X(void, EndQuery, (Enum target), None)                                                                               \
   X(void, GetQueryiv, (Enum target, Enum name, Int * value), None)                                                     \
   X(void, QueryCounter, (Uint query, Enum target), None)                                                               \
-  X(void, GetQueryObjectui64v, (Uint query, Enum name, Uint64 * value), None)
+  X(void, GetQueryObjectui64v, (Uint query, Enum name, Uint64 * value), None)                                          \
+  X(void, Clear, (Bitfield buffers), None)                                                                             \
+  X(void, ColorMask, (Boolean r, Boolean g, Boolean b, Boolean a), ColourMasks)                                        \
+  X(void, CopyBufferSubData, (Enum from, Enum to, Intptr fromOffset, Intptr toOffset, Sizeiptr size), None)            \
+  X(Sync, FenceSync, (Enum condition, Bitfield flags), None)                                                           \
+  X(Enum, ClientWaitSync, (Sync sync, Bitfield flags, Uint64 nanoseconds), None)                                       \
+  X(void, DeleteSync, (Sync sync), None)
 
 // Functions of later versions that state of later versions needs; null where the context lacks them. A loader may know
-// some that a context does not: the version decides, and where it is too low, for ClipControl, the extension.
+// some that a context does not: the version decides, and where it is too low an extension (LoadFunctions.cpp).
 #define TYNDALL_GL_OPTIONAL(X)                                                                                         \
   X(void, GetFloati_v, (Enum name, Uint index, Float * value), None)                                                   \
   X(void, ViewportIndexedf, (Uint index, Float x, Float y, Float width, Float height), Viewports)                      \
@@ -147,19 +156,21 @@ using Sync = void*;
   X(void, BindImageTexture,                                                                                            \
     (Uint unit, Uint texture, Int level, Boolean layered, Int layer, Enum access, Enum format), Images)                \
   X(void, TexStorage3D, (Enum target, Sizei levels, Enum format, Sizei width, Sizei height, Sizei depth), None)        \
-  X(void, BufferSubData, (Enum target, Intptr offset, Sizeiptr size, const void* data), None)                          \
   X(void, ClearBufferSubData,                                                                                          \
     (Enum target, Enum internal, Intptr offset, Sizeiptr size, Enum format, Enum type, const void* data), None)        \
   X(void, FramebufferTextureLayer, (Enum target, Enum attachment, Uint texture, Int level, Int layer), None)           \
-  X(void, CopyBufferSubData, (Enum from, Enum to, Intptr fromOffset, Intptr toOffset, Sizeiptr size), None)            \
-  X(Sync, FenceSync, (Enum condition, Bitfield flags), None)                                                           \
-  X(Enum, ClientWaitSync, (Sync sync, Bitfield flags, Uint64 nanoseconds), None)                                       \
-  X(void, DeleteSync, (Sync sync), None)                                                                               \
   X(void, ClipControl, (Enum origin, Enum depth), ClipControl)                                                         \
   X(Enum, GetGraphicsResetStatus, (), None)                                                                            \
   X(Enum, GetGraphicsResetStatusARB, (), None)                                                                         \
+  X(void, GetProgramBinary, (Uint program, Sizei size, Sizei * length, Enum * format, void* bytes), None)              \
+  X(void, ProgramBinary, (Uint program, Enum format, const void* bytes, Sizei length), None)                           \
+  X(void, ProgramParameteri, (Uint program, Enum name, Int value), None)                                               \
+  X(void, ObjectLabel, (Enum kind, Uint name, Sizei length, const Char* text), None)                                   \
   X(void, PushDebugGroup, (Enum source, Uint id, Sizei length, const Char* message), None)                             \
-  X(void, PopDebugGroup, (), None)
+  X(void, PopDebugGroup, (), None)                                                                                     \
+  X(void, GetTextureParameteriv, (Uint texture, Enum name, Int * value), None)                                         \
+  X(void, BindTextures, (Uint first, Sizei n, const Uint* textures), Textures)                                         \
+  X(void, BindSamplers, (Uint first, Sizei n, const Uint* samplers), Textures)
 
 struct Functions {
 #define TYNDALL_GL_DECLARE(result, name, arguments, state) result(TYNDALL_GLAPI* name) arguments = nullptr;
@@ -169,6 +180,9 @@ struct Functions {
   int version = 0;               ///< 10 * major + minor of the context
   bool stencilTexturing = false; ///< a texture may show its stencil in place of its depth
   bool compatibility = false;    ///< of the compatibility profile
+  bool parallelCompile = false;  ///< it says whether a program is complete without waiting for it
+  bool debugOutput = false;      ///< GL_DEBUG_OUTPUT and debug groups
+  int clipDistances = 0;         ///< that may be enabled
 
   /// Fills the table. Returns the name of the first required function that the loader does not know, empty if all are.
   std::string load(void* (*loader)(const char*));

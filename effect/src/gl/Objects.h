@@ -8,7 +8,7 @@
 
 namespace tyndall::gl {
 
-enum class ObjectKind { Texture, Sampler, Buffer, VertexArray, Framebuffer, Renderbuffer, Query };
+enum class ObjectKind { Texture, Sampler, Buffer, VertexArray, Framebuffer, Renderbuffer, Query, Program };
 
 template <ObjectKind Kind>
 class Object {
@@ -22,6 +22,7 @@ public:
     if constexpr (Kind == ObjectKind::Framebuffer) gl.GenFramebuffers(1, &name_);
     if constexpr (Kind == ObjectKind::Renderbuffer) gl.GenRenderbuffers(1, &name_);
     if constexpr (Kind == ObjectKind::Query) gl.GenQueries(1, &name_);
+    if constexpr (Kind == ObjectKind::Program) name_ = gl.CreateProgram();
   }
   Object(Object&& other) noexcept : gl_(other.gl_), name_(std::exchange(other.name_, 0)) {}
   Object& operator=(Object&& other) noexcept {
@@ -40,6 +41,7 @@ public:
     if constexpr (Kind == ObjectKind::Framebuffer) gl_->DeleteFramebuffers(1, &name_);
     if constexpr (Kind == ObjectKind::Renderbuffer) gl_->DeleteRenderbuffers(1, &name_);
     if constexpr (Kind == ObjectKind::Query) gl_->DeleteQueries(1, &name_);
+    if constexpr (Kind == ObjectKind::Program) gl_->DeleteProgram(name_);
   }
 
   Uint name() const { return name_; }
@@ -57,5 +59,6 @@ using VertexArray = Object<ObjectKind::VertexArray>;
 using Framebuffer = Object<ObjectKind::Framebuffer>;
 using Renderbuffer = Object<ObjectKind::Renderbuffer>;
 using Query = Object<ObjectKind::Query>;
+using ProgramObject = Object<ObjectKind::Program>;
 
 } // namespace tyndall::gl

@@ -1,24 +1,33 @@
-// Gives the engine's GL state back. Construction saves every row that a function of gl/Functions.h can change and sets
-// what a full-screen pass expects; destruction restores. The rows are the names in the table's last column.
+// What becomes of the engine's GL state (StateMode). Construction sets what a full-screen pass expects; before that it
+// saves what it and the passes change, and destruction gives that back, or it saves nothing and destruction leaves GL
+// as the comment of tyndall::Effect says. The rows are the names in the last column of gl/Functions.h.
 #pragma once
 
 #include "gl/Enums.h"
 #include "gl/Functions.h"
 
 #include <array>
+#include <tyndall/tyndall.h>
 #include <vector>
 
 namespace tyndall::gl {
 
-inline constexpr int kTextureUnits = 23;   ///< units 0..22 (gl::Unit) are ours during a render
 inline constexpr int kUniformBindings = 3; ///< uniform buffer bindings 0..2 likewise
+inline constexpr Uint kDrawBuffers = 3;    ///< draw buffers 0..2 are those that passes draw into
 
+/// Saved are texture unit 0, where textures are checked and made, and all rows but those that have a function of their
+/// own, which is to be called before they change.
 class StateGuard {
 public:
-  explicit StateGuard(const Functions& gl);
+  StateGuard(const Functions& gl, StateMode mode);
   ~StateGuard();
   StateGuard(const StateGuard&) = delete;
   StateGuard& operator=(const StateGuard&) = delete;
+
+  /// Units 1 to count - 1: GL_TEXTURE_2D and, if they will be bound there, arrays and multisampled textures.
+  void saveUnits(int count, bool arrays, bool multisampled);
+  /// Function, operation and mask of the stencil; its test is off in any case.
+  void saveStencil();
 
 private:
   struct Unit {
@@ -36,43 +45,74 @@ private:
     std::array<Int, 4> factors{};   // source rgb, destination rgb, source alpha, destination alpha
     std::array<Int, 2> equations{}; // rgb, alpha
   };
-  struct View {
-    std::array<Float, 4> rectangle{};
-    Boolean scissor = 0;
-  };
-
   struct StencilFace {
     Int function = 0, reference = 0, valueMask = 0, writeMask = 0, fail = 0, depthFail = 0, pass = 0;
   };
 
-  void saveTextures();
+  bool restores() const { return mode_ == StateMode::Restore; }
+  void save();
+  void saveUnit(int index, const std::array<bool, 3>& targets);
+  void saveUniformBindings();
   void saveDrawBuffers();
-  void saveViewports();
-  void saveStencil();
-  void setDefaults() const;
-  void restoreTextures() const;
+  void saveViewport();
+  void clearSaved() const;
+  void restore() const;
+  void restoreUnits() const;
+  void restoreUniformBindings() const;
   void restoreDrawBuffers() const;
-  void restoreViewports() const;
   void restoreStencil() const;
+  void setDefaults() const;
+  void leave() const;
+  void emptyUnits() const;
 
   const Functions& gl_;
+  StateMode mode_;
   Int program_ = 0;
   Int vertexArray_ = 0;
   Int framebuffer_ = 0;
   Int renderbuffer_ = 0;
-  Int packBuffer_ = 0;
   Int unpackBuffer_ = 0;
-  std::array<Int, 16> pixelStorage_{};
-  std::array<StencilFace, 2> stencil_;
   Int uniformBuffer_ = 0;
   Int activeUnit_ = 0;
-  std::array<Int, 2> polygonMode_{};
+  Int polygonMode_[2] = {};
   std::array<Int, 2> clipControl_{}; // origin, depth mode; where the context has them
-  std::array<Unit, kTextureUnits> units_;
+  std::array<Int, 5> unpacking_{};
+  std::array<Float, 4> viewport_{};
+  Boolean scissor_ = 0;
+  std::vector<Enum> capabilities_; // that are on
   std::array<UniformBinding, kUniformBindings> uniformBindings_;
-  std::vector<DrawBuffer> drawBuffers_;
-  std::vector<View> views_;
-  std::vector<Boolean> capabilities_;
+  std::array<DrawBuffer, kDrawBuffers> drawBuffers_;
+  int unitCount_ = 1; // units 0 to unitCount_ - 1
+  std::array<bool, 3> unitTargets_{true, false, false};
+  std::vector<Unit> units_;
+  bool savesStencil_ = false;
+  std::array<StencilFace, 2> stencil_;
 };
+
+/// How pixels are packed, and where to: around a read-back of pixels.
+class PackGuard {
+public:
+  PackGuard(const Functions& gl, StateMode mode);
+  ~PackGuard();
+  PackGuard(const PackGuard&) = delete;
+  PackGuard& operator=(const PackGuard&) = delete;
+
+private:
+  const Functions& gl_;
+  StateMode mode_;
+  Int buffer_ = 0;
+  std::array<Int, 5> packing_{};
+};
+
+/// Sets the viewport of index 0 alone, where the context has several.
+void setViewport(const Functions& gl, Int x, Int y, Sizei width, Sizei height);
+
+struct BlendFactors {
+  Enum source = ONE, destination = ZERO, sourceAlpha = ONE, destinationAlpha = ZERO;
+};
+
+/// Blending of draw buffers 0 to count - 1, by GL_FUNC_ADD. Where the context has no functions for one buffer (OpenGL
+/// 3.3), the factors are those of all.
+void setBlending(const Functions& gl, Uint count, bool on, const BlendFactors& factors = {});
 
 } // namespace tyndall::gl

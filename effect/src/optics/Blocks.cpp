@@ -90,8 +90,10 @@ void setCameraRays(blocks::FrameBlock& block, const Frame& frame) {
   block.farPoint[2] = stepY / scale;
   block.nearStep = step / scale;
   if (!orthographic) block.nearStep = glm::vec4(0, 0, 0, step.w / scale); // xyz is 0 but for rounding
-  const double sky = std::min(frame.medium.farDistance, kEndless);
-  block.depthToT = glm::vec4(reversed ? 0 : 1, reversed ? 1 : -1, orthographic ? 1 : 0, sky);
+  block.depthOffset = reversed ? 0 : 1;
+  block.depthScale = reversed ? 1 : -1;
+  block.isOrthographic = orthographic ? 1 : 0;
+  block.skyEnd = static_cast<float>(std::min(frame.medium.farDistance, kEndless));
 }
 
 } // namespace
@@ -101,11 +103,11 @@ glm::dvec3 cameraOrigin(const Camera& camera) {
 }
 
 double farthestEnd(const blocks::FrameBlock& block) {
-  const double sky = block.depthToT.w;
-  if (block.depthToT.z != 0) return std::max(glm::length(glm::dvec3(block.nearStep)), sky);
+  const double sky = block.skyEnd;
+  if (block.isOrthographic != 0) return std::max(glm::length(glm::dvec3(block.nearStep)), sky);
   double far = 0;
   for (const glm::dvec2 corner : {glm::dvec2(-0.5), glm::dvec2(0.5, -0.5), glm::dvec2(-0.5, 0.5), glm::dvec2(0.5)}) {
-    const glm::dvec2 p = corner * glm::dvec2(block.counts.z, block.counts.w);
+    const glm::dvec2 p = corner * glm::dvec2(block.frameSize);
     const glm::dvec4 point =
         glm::dvec4(block.farPoint[0]) + p.x * glm::dvec4(block.farPoint[1]) + p.y * glm::dvec4(block.farPoint[2]);
     if (point.w > 1e-30) far = std::max(far, glm::length(glm::dvec3(point)) / point.w);
@@ -115,7 +117,7 @@ double farthestEnd(const blocks::FrameBlock& block) {
 
 glm::dvec3 peakPhase(const blocks::FrameBlock& block) {
   glm::dvec3 peak(0);
-  for (int k = 0; k < block.counts.x; ++k) {
+  for (int k = 0; k < block.constituentCount; ++k) {
     const glm::dvec4 shape(block.phaseShape[k]);
     peak += glm::dvec3(block.phaseWeight[k]) * ((1 + shape.z) / std::pow(shape.x, 1.5));
   }
@@ -141,29 +143,43 @@ bool isMonochrome(const Medium& medium) {
 blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
   blocks::FrameBlock block{};
   setCameraRays(block, frame);
-  block.extinction =
-      glm::vec4(glm::vec3(extinctionOf(frame.medium)), static_cast<float>(visibleDistance(frame.medium)));
+  block.extinction = extinctionOf(frame.medium);
+  block.visibleEnd = static_cast<float>(visibleDistance(frame.medium));
   const std::vector<glm::dvec3> shares = sharesOf(frame.medium);
-  const auto count = static_cast<int>(shares.size());
   for (std::size_t k = 0; k < shares.size(); ++k) {
     double norm = 0;
     block.phaseShape[k] = phaseNormAndShape(frame.medium.constituents[k], norm);
     block.phaseWeight[k] = glm::vec4(glm::vec3(shares[k] * norm), 0);
   }
-  block.limits = glm::vec4(sizes.lightCeiling, sizes.colourMax, sizes.outputMax, 0);
-  block.counts = glm::ivec4(count, sizes.depthSamples, frame.width, frame.height);
+  block.lightCeiling = sizes.lightCeiling;
+  block.colourMax = sizes.colourMax;
+  block.outputMax = sizes.outputMax;
+  block.constituentCount = static_cast<int>(shares.size());
+  block.depthSampleCount = sizes.depthSamples;
+  block.isMultisampled = frame.depth.multisampled ? 1 : 0;
+  block.frameSize = {frame.width, frame.height};
   return block;
 }
 
 namespace {
 
-glm::vec4 coneOf(const Light& light) {
+void setCone(blocks::LightBlock& block, const Light& light) {
   // Below this difference of cosines the falloff is narrower than float32 tells from a step.
   constexpr double kHardEdge = 1e-6;
+  if (light.kind == LightKind::Point) {
+    block.outerCosine = block.innerCosine = -1; // what serves spots may serve it, too
+    return;
+  }
   const double outer = std::cos(light.outerConeAngle), inner = std::cos(light.innerConeAngle);
   const bool hard = inner - outer < kHardEdge;
-  return glm::vec4(std::max(outer, 0.0), inner, hard ? 0 : 1 / (inner - outer),
-                   hard ? 0.2 : std::min(0.2, 0.05 * (light.outerConeAngle - light.innerConeAngle)));
+  const double panel = hard ? 0.2 : std::min(0.2, 0.05 * (light.outerConeAngle - light.innerConeAngle));
+  const glm::dvec2 sines(std::sin(light.outerConeAngle), std::sin(light.innerConeAngle));
+  block.outerCosine = static_cast<float>(std::max(outer, 0.0));
+  block.innerCosine = static_cast<float>(inner);
+  block.outerSineSquared = static_cast<float>(sines.x * sines.x);
+  block.innerSineSquared = static_cast<float>(sines.y * sines.y);
+  block.falloffScale = static_cast<float>(hard ? 0 : 1 / (inner - outer));
+  block.falloffPanel = static_cast<float>(panel);
 }
 
 // The light's way through the medium, as a linear function of the camera-relative point.
@@ -221,16 +237,17 @@ blocks::LightBlock lightBlock(const Frame& frame, const Light& light, int shadow
   const glm::dvec3 direction =
       light.kind == LightKind::Point ? glm::dvec3(0, -1, 0) : glm::normalize(toGlm(light.direction));
   blocks::LightBlock block{};
-  block.lightColour = glm::vec4(glm::min(glm::dvec3(toGlm(light.colour)) * scatteringOf(frame.medium), kBrightest), 0);
-  block.lightDirection = glm::vec4(direction, 0);
-  block.lightPosition = glm::vec4(toGlm(light.position) - origin, std::isfinite(light.range) ? light.range : 0);
-  block.cone = coneOf(light);
-  const glm::dvec2 sines(std::sin(light.outerConeAngle), std::sin(light.innerConeAngle));
-  block.coneSinSquared = glm::vec4(sines * sines, 0, 0);
+  block.lightColour = glm::min(glm::dvec3(toGlm(light.colour)) * scatteringOf(frame.medium), kBrightest);
+  block.lightDirection = direction;
+  block.lightPosition = toGlm(light.position) - origin;
+  block.lightRange = static_cast<float>(std::isfinite(light.range) ? light.range : 0);
+  setCone(block, light);
   block.boundary = boundaryOf(light.boundary, direction, origin);
-  block.fade = glm::vec4(light.cascadeFade, 0, 0, 0);
+  block.cascadeFade = static_cast<float>(light.cascadeFade);
   const auto count = static_cast<int>(light.shadow.texture ? light.shadow.views.size() : 0);
-  block.viewCounts = glm::ivec4(count, light.litOutsideViews ? 1 : 0, shadowWidth, shadowHeight);
+  block.viewCount = count;
+  block.isLitOutside = light.litOutsideViews ? 1 : 0;
+  block.shadowMapSize = {shadowWidth, shadowHeight};
   for (int i = 0; i < count; ++i) {
     const ShadowView& view = light.shadow.views[static_cast<std::size_t>(i)];
     const glm::dmat4 depthClipFromWorld = depthFromClip(light.shadow.clipDepth) * toGlm(view.clipFromWorld);
@@ -245,20 +262,24 @@ blocks::LightBlock lightBlock(const Frame& frame, const Light& light, int shadow
     texelFromClip[1][1] = texelFromClip[3][1] = 0.5 * shadowHeight;
     texelFromClip[2][2] = reversed ? -1 : 1;
     const glm::dmat4 texelFromCamera = texelFromClip * glm::translate(depthClipFromWorld, origin);
-    block.texelFromCamera[i] = glm::mat4(texelFromCamera);
-    block.viewMargin[i] = marginOf(texelFromCamera, glm::dvec2(shadowWidth, shadowHeight), light,
-                                   toGlm(light.position) - origin, extentOf(frame.camera));
+    blocks::MapView& map = block.shadowViews[i];
+    map.texelFromCamera = glm::mat4(texelFromCamera);
+    map.margin = marginOf(texelFromCamera, glm::dvec2(shadowWidth, shadowHeight), light, toGlm(light.position) - origin,
+                          extentOf(frame.camera));
     const bool open = light.kind != LightKind::Directional || i == count - 1;
-    block.viewDepth[i] = glm::vec4(reversed ? -1 : 0, reversed ? 0 : 1, reversed ? -1 : 1, open ? 1 : 0);
-    block.viewLayer[i] = glm::ivec4(view.layer, 0, 0, 0);
+    map.nearDepth = reversed ? -1 : 0;
+    map.farDepth = reversed ? 0 : 1;
+    map.depthSign = reversed ? -1 : 1;
+    map.isOpen = open ? 1 : 0;
+    map.layer = view.layer;
     if (curvesSize == 0) continue;
     const glm::dvec4 depth = linearDepth(light, i).coefficients;
-    block.curveDepth[i] = glm::vec4(glm::dvec3(depth), glm::dot(depth, glm::dvec4(origin, 1)));
+    map.curveDepth = glm::vec4(glm::dvec3(depth), glm::dot(depth, glm::dvec4(origin, 1)));
   }
-  const int perTexel = light.curves.packed ? 4 : 2;
-  if (curvesSize > 0)
-    block.curveCounts =
-        glm::ivec4(curvesSize, light.curves.nodes, light.curves.packed ? 1 : 0, light.curves.nodes / perTexel);
+  if (curvesSize == 0) return block;
+  block.curvesSize = curvesSize;
+  block.curvesPacked = light.curves.packed ? 1 : 0;
+  block.texelsPerCurve = light.curves.nodes / (light.curves.packed ? 4 : 2);
   return block;
 }
 

@@ -168,12 +168,12 @@ namespace {
 double halfPixelAt(const dvec3& lamp, const blocks::FrameBlock& block) {
   const dvec3 centre(block.farPoint[0]), x(block.farPoint[1]), y(block.farPoint[2]);
   const double half = 0.5 * std::min(glm::length(x), glm::length(y));
-  if (block.depthToT.z != 0) return half;
+  if (block.isOrthographic != 0) return half;
   double farthest = 0; // of the corners: there a pixel's angle is least
   for (const double side : {-0.5, 0.5})
-    farthest =
-        std::max({farthest, glm::length(centre + side * (double(block.counts.z) * x + double(block.counts.w) * y)),
-                  glm::length(centre + side * (double(block.counts.z) * x - double(block.counts.w) * y))});
+    farthest = std::max({farthest,
+                         glm::length(centre + side * (double(block.frameSize.x) * x + double(block.frameSize.y) * y)),
+                         glm::length(centre + side * (double(block.frameSize.x) * x - double(block.frameSize.y) * y))});
   return half * glm::length(centre) / (farthest * farthest) * glm::length(lamp);
 }
 

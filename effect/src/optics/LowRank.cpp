@@ -29,7 +29,7 @@ public:
     distance_ = glm::length(toLight_);
     axis_ = toLight_ / std::max(distance_, 1e-300);
     end_ = farthestEnd(block_);
-    const double seen = std::min(end_, kDarkShare * block_.extinction.w);
+    const double seen = std::min(end_, kDarkShare * block_.visibleEnd);
     for (int i = 0; i < slices.slices; ++i) {
       const glm::dvec4 ends(slices.texels[static_cast<std::size_t>(i)]);
       for (const glm::dvec2 p : {glm::dvec2(ends.x, ends.y), glm::dvec2(ends.z, ends.w)})
@@ -96,7 +96,7 @@ public:
   // A spot's falloff towards a slice's plane at the angle gamma at the lamp.
   double falloff(const dvec3& across, double gamma) const {
     const double cosine = glm::dot(dvec3(light_.lightDirection), across * std::sin(gamma) - axis_ * std::cos(gamma));
-    const double outer = light_.cone.x, scale = light_.cone.z;
+    const double outer = light_.outerCosine, scale = light_.falloffScale;
     if (scale == 0) return cosine >= outer ? 1 : 0;
     const double share = glm::clamp((cosine - outer) * scale, 0.0, 1.0);
     return share * share;
@@ -108,13 +108,17 @@ public:
     return length > 0 ? across / length : dvec3(0);
   }
 
-  glm::vec4 rayCoordinate() const { return {lowest_, (kGrid - 1) / (highest_ - lowest_), 0, 0}; }
-  glm::vec4 lightCoordinate() const { return {extent_, 0, begin_, 0}; }
+  void setCoordinates(LowRankTable& table) const {
+    table.rayBegin = static_cast<float>(lowest_);
+    table.rayScale = static_cast<float>((kGrid - 1) / (highest_ - lowest_));
+    table.lightBegin = static_cast<float>(begin_);
+    table.lightExtent = static_cast<float>(extent_);
+  }
 
 private:
   dvec3 directionAt(const glm::dvec2& window) const {
-    const glm::dvec2 p = window - 0.5 * glm::dvec2(block_.counts.z, block_.counts.w);
-    if (block_.depthToT.z != 0) return glm::normalize(-dvec3(block_.nearStep));
+    const glm::dvec2 p = window - 0.5 * glm::dvec2(block_.frameSize);
+    if (block_.isOrthographic != 0) return glm::normalize(-dvec3(block_.nearStep));
     return glm::normalize(dvec3(block_.farPoint[0]) + p.x * dvec3(block_.farPoint[1]) +
                           p.y * dvec3(block_.farPoint[2]));
   }
@@ -136,7 +140,7 @@ private:
 
   dvec3 phaseAt(double cosine) const {
     dvec3 sum(0);
-    for (int k = 0; k < block_.counts.x; ++k) {
+    for (int k = 0; k < block_.constituentCount; ++k) {
       const glm::dvec4 shape(block_.phaseShape[k]);
       const double d = shape.x + shape.y * (shape.w > 0 ? 1 - cosine : 1 + cosine);
       sum += dvec3(block_.phaseWeight[k]) * ((1 + shape.z * cosine * cosine) / (d * std::sqrt(d)));
@@ -193,20 +197,27 @@ std::optional<LowRankFactors> factorise(const Eigen::MatrixXd& matrix, const Eig
                         svd.matrixV().leftCols(terms).transpose() * columnWeights.cwiseInverse().asDiagonal()};
 }
 
+void LowRankTable::describe(blocks::EpipolarBlock& block) const {
+  block.lowRankTerms = terms;
+  block.lowRankRayBegin = rayBegin;
+  block.lowRankRayScale = rayScale;
+  block.lowRankLightBegin = lightBegin;
+  block.lowRankLightExtent = lightExtent;
+  block.lowRankPerSlice = sets > 1 ? 1 : 0;
+}
+
 std::optional<LowRankTable> makeLowRank(const Frame& frame, const Light& light, const SliceTable& slices) {
   const bool directional = light.kind == LightKind::Directional;
   if (directional && light.boundary.enabled) return std::nullopt;
-  if (!directional && frameBlock(frame, {}).depthToT.z != 0) return std::nullopt;
+  if (!directional && frameBlock(frame, {}).isOrthographic != 0) return std::nullopt;
   const Kernel kernel(frame, light, slices);
   if (kernel.isEmpty()) return std::nullopt;
 
   const int terms = frame.settings.lowRankTerms;
   LowRankTable table;
   table.sets = light.kind == LightKind::Spot ? slices.slices : 1;
-  table.ray = kernel.rayCoordinate();
-  table.ray.z = static_cast<float>(terms);
-  table.light = kernel.lightCoordinate();
-  table.light.y = light.kind == LightKind::Spot ? 1 : 0;
+  table.terms = terms;
+  kernel.setCoordinates(table);
   const auto size = static_cast<std::size_t>(terms) * kGrid;
   table.rays.resize(size);
   table.lights.resize(2 * size * static_cast<std::size_t>(table.sets));

@@ -25,10 +25,15 @@ std::optional<LowRankFactors> factorise(const Eigen::MatrixXd& matrix, const Eig
                                         const Eigen::VectorXd& columnWeights, int terms);
 
 struct LowRankTable {
-  int sets = 0;                  ///< of light factors: one, or with a spot's cone one a slice
-  glm::vec4 ray{0}, light{0};    ///< the block's lowRankRay and lowRankLight
-  std::vector<glm::vec4> rays;   ///< grid x terms: rgb
-  std::vector<glm::vec4> lights; ///< sets x (2 terms grid): prefix sums of a term, then the term itself
+  int sets = 0; ///< of light factors: one, or with a spot's cone one a slice
+  int terms = 0;
+  float rayBegin = 0, rayScale = 0;      ///< of the grid of camera rays, as the block has them
+  float lightBegin = 0, lightExtent = 0; ///< the same of light rays
+  std::vector<glm::vec4> rays;           ///< grid x terms: rgb
+  std::vector<glm::vec4> lights;         ///< sets x (2 terms grid): prefix sums of a term, then the term itself
+
+  /// Fills in what the block says of low rank.
+  void describe(blocks::EpipolarBlock& block) const;
 };
 
 /// By settings.lowRankTerms. None where the airlight depends on more than two coordinates (an orthographic camera

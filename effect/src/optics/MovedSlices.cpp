@@ -33,7 +33,7 @@ struct Interval {
 class Planes {
 public:
   Planes(const Frame& frame, const Light& light, const blocks::LightBlock& block)
-      : frame_(frameBlock(frame, {})), orthographic_(frame_.depthToT.z != 0) {
+      : frame_(frameBlock(frame, {})), orthographic_(frame_.isOrthographic != 0) {
     const bool directional = light.kind == LightKind::Directional;
     const dvec3 toLight = directional ? -dvec3(block.lightDirection) : dvec3(block.lightPosition);
     parallel_ = orthographic_ && directional;
@@ -63,7 +63,7 @@ public:
     return std::atan2(glm::dot(from, up_), glm::dot(from, right_));
   }
   double placeAt(const dvec2& window) const {
-    const dvec2 p = window - 0.5 * dvec2(frame_.counts.z, frame_.counts.w);
+    const dvec2 p = window - 0.5 * dvec2(frame_.frameSize);
     return placeOf(dvec3(frame_.farPoint[0]) + p.x * dvec3(frame_.farPoint[1]) + p.y * dvec3(frame_.farPoint[2]));
   }
 
@@ -85,8 +85,8 @@ private:
 // World size of a shadow texel at a point, across the light: the largest over the views.
 double texelAt(const Light& light, const blocks::LightBlock& block, const dvec3& point) {
   double size = 0;
-  for (int v = 0; v < block.viewCounts.x && light.shadow.texture != 0; ++v) {
-    const glm::dmat4 rows = glm::transpose(glm::dmat4(block.texelFromCamera[v]));
+  for (int v = 0; v < block.viewCount && light.shadow.texture != 0; ++v) {
+    const glm::dmat4 rows = glm::transpose(glm::dmat4(block.shadowViews[v].texelFromCamera));
     const dvec3 forward(rows[3]);
     const double along = glm::dot(forward, forward);
     const double w = along > 0 ? std::abs(glm::dot(forward, point) + rows[3].w) : std::abs(rows[3].w);
@@ -159,7 +159,7 @@ std::vector<bool> movedSlices(const Frame& frame, const Light& light, const bloc
     steps[i] = std::max(steps[i], step);
     steps[i + 1] = std::max(steps[i + 1], step);
   }
-  if (slices.block.sliceMap.w != 0) {
+  if (slices.block.slicesClosed != 0) {
     const double step = std::abs(planes.difference(places.front(), places.back()));
     steps.front() = std::max(steps.front(), step);
     steps.back() = std::max(steps.back(), step);

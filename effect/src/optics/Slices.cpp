@@ -150,36 +150,39 @@ Row rowOf(const glm::dmat4& texelFromCamera, const dvec4& begin, const dvec4& di
 }
 
 // How rows hold depths: in 16 bits where depth is linear in the distance from the light, else as they are.
-glm::vec4 rowCodeOf(const blocks::LightBlock& light, std::size_t views) {
+void setRowCode(blocks::EpipolarBlock& block, const blocks::LightBlock& light, std::size_t views) {
   constexpr float kMost = 65535, kFar = kMost - 1; // the greatest code is a texel without a caster
-  for (std::size_t v = 0; v < views; ++v) {
-    const glm::mat4& m = light.texelFromCamera[v];
-    if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0) return glm::vec4(1, 0, 3e38F, 0);
-  }
-  const float near = light.viewDepth[0].x, far = light.viewDepth[0].y;
-  const float scale = kFar / kMost / (far - near);
-  return glm::vec4(scale, -near * scale, 1, kMost);
+  const bool linear = std::all_of(light.shadowViews, light.shadowViews + views, [](const blocks::MapView& view) {
+    const glm::mat4& m = view.texelFromCamera;
+    return m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0;
+  });
+  const float near = light.shadowViews[0].nearDepth, far = light.shadowViews[0].farDepth;
+  block.rowCodeScale = linear ? kFar / kMost / (far - near) : 1;
+  block.rowCodeOffset = linear ? -near * block.rowCodeScale : 0;
+  block.emptyRowCode = linear ? 1 : 3e38F;
+  block.rowCodeSteps = linear ? kMost : 0;
 }
 
 // How epipolar textures hold colours in half floats: the largest that a ray can bring near the upper end of their
 // range, so that most of it lies below. A directional light's is the shorter of the mean free path and the longest ray;
 // a lamp's, times the sine, is half a turn of the phase function's peak over the lamp's distance, 256 times less than
 // the range holds, since a ray of an orthographic camera, or past a lamp beside the eye, comes nearer to it than that.
-glm::vec4 storedOf(const Frame& frame, const Light& light, const blocks::LightBlock& block) {
+void setStored(blocks::EpipolarBlock& block, const Frame& frame, const Light& light, const blocks::LightBlock& lamp) {
   constexpr double kLargestHalf = 65504, kCoordinates = 48; // units that lib/stored.glsl has codes for
   const blocks::FrameBlock camera = frameBlock(frame, {});
-  const double longest = std::min<double>(farthestEnd(camera), camera.extinction.w);
+  const double longest = std::min<double>(farthestEnd(camera), camera.visibleEnd);
   dvec3 scale(0.5 * kLargestHalf / longest);
   if (light.kind == LightKind::Directional) {
     scale = glm::max(scale, 0.5 * kLargestHalf * dvec3(camera.extinction));
   } else {
-    double distance = glm::length(dvec3(block.lightPosition));
-    if (camera.depthToT.z != 0) distance = std::max(distance, 0.5 * glm::length(dvec3(camera.nearStep)));
+    double distance = glm::length(dvec3(lamp.lightPosition));
+    if (camera.isOrthographic != 0) distance = std::max(distance, 0.5 * glm::length(dvec3(camera.nearStep)));
     const dvec3 peak = peakPhase(camera);
     scale =
         dvec3(kLargestHalf / 256 / glm::pi<double>() * std::max(distance, 1e-30) / std::max({peak.x, peak.y, peak.z}));
   }
-  return glm::vec4(glm::clamp(scale, 1e-30, 1e30), std::log2(longest) + 2 - kCoordinates);
+  block.storedScale = glm::clamp(scale, 1e-30, 1e30);
+  block.leastCoordinate = static_cast<float>(std::log2(longest) + 2 - kCoordinates);
 }
 
 } // namespace
@@ -219,20 +222,25 @@ SliceTable makeSlices(const Frame& frame, const Light& light, int shadowWidth, i
     dvec4 begin, direction;
     rays.at(exit, begin, direction);
     for (std::size_t v = 0; v < views; ++v) {
-      const Row row = rowOf(glm::dmat4(lightMatrices.texelFromCamera[v]), begin, direction, !rays.orthographic,
-                            dvec2(shadowWidth, shadowHeight), frame.settings.rowStep);
+      const Row row = rowOf(glm::dmat4(lightMatrices.shadowViews[v].texelFromCamera), begin, direction,
+                            !rays.orthographic, dvec2(shadowWidth, shadowHeight), frame.settings.rowStep);
       table.texels[(2 + 2 * v) * count + i] = row.originStep;
       table.texels[(3 + 2 * v) * count + i] = glm::vec4(row.texels, 0, 0, 0);
       table.longestRow = std::max(table.longestRow, static_cast<int>(row.texels));
     }
   }
   blocks::EpipolarBlock& block = table.block;
-  block.epipole = glm::vec4(epipole, epipole.z < 0 ? -1 : 1);
+  block.epipole = epipole;
+  block.epipoleSign = epipole.z < 0 ? -1 : 1;
   block.border = glm::vec4(border.low, border.high);
-  block.sliceMap = glm::vec4(border.start(first), std::max(step, 1e-9), border.perimeter(), closed ? 1 : 0);
-  block.rowCode = rowCodeOf(lightMatrices, views);
-  block.stored = storedOf(frame, light, lightMatrices);
-  block.grid = glm::ivec4(table.slices, samples, 0, 0);
+  block.slicesBegin = static_cast<float>(border.start(first));
+  block.sliceWidth = static_cast<float>(std::max(step, 1e-9));
+  block.borderLength = static_cast<float>(border.perimeter());
+  block.slicesClosed = closed ? 1 : 0;
+  block.sliceCount = table.slices;
+  block.samplesPerSlice = samples;
+  setRowCode(block, lightMatrices, views);
+  setStored(block, frame, light, lightMatrices);
   return table;
 }
 

@@ -16,7 +16,7 @@ struct SliceTable {
   std::vector<glm::vec4> texels;    ///< slices x rows, see glsl/lib/slices.glsl
   std::uint64_t regularSamples = 0; ///< one in sixteen samples of each slice
   int longestRow = 0;               ///< texels, over all slices and views
-  blocks::EpipolarBlock block{};    ///< epipole, border and sliceMap are filled in
+  blocks::EpipolarBlock block{};    ///< what says where slices run and how rows and textures hold values
 };
 
 /// Slices by the frame's settings. shadowWidth, shadowHeight: texels, 0 without a shadow map.

@@ -1,23 +1,15 @@
 // The epipolar pipeline of one light: the list of its passes (Chen 2011, Yusov 2013).
 #pragma once
 
-#include "passes/SliceContext.h"
+#include "plan/LightPlanner.h"
 
 namespace tyndall::passes::epipolar {
 
-/// Adds the light by any technique but Technique::Exact. The frame and light blocks must be bound.
-Status run(const PassContext& context, Targets& targets, PassRecorder& recorder, const gl::Framebuffer& scratch,
-           const SliceInputs& inputs);
+/// Adds the light by any technique but Technique::Exact, and what a debug view shows of it. Its slices are made.
+void plan(LightPlanner& light, DebugView view);
 
-/// Temporal reuse: the same in two steps, of what inputs.history has planned. Up to the light on slices; `frame` counts
-/// the view's, for Reuse::refreshFrames.
-Status prepare(const PassContext& pass, Targets& targets, PassRecorder& recorder, const gl::Framebuffer& scratch,
-               const SliceInputs& inputs, int frame);
-/// And from there to the destination, of all pixels or of those that the stencil marks.
-Status finish(const PassContext& pass, Targets& targets, PassRecorder& recorder, const gl::Framebuffer& scratch,
-              const SliceInputs& inputs);
-
-/// Every shader variant that they can ask for.
-std::vector<gl::Variant> allVariants();
+/// The middle of it, for temporal reuse: from sample ends, and rows if they stand in one texture, to the light of all
+/// samples.
+void planToInterpolate(LightPlanner& light);
 
 } // namespace tyndall::passes::epipolar

@@ -2,17 +2,14 @@
 // glsl/passes/pixelTree).
 #pragma once
 
-#include "passes/Rows.h"
+#include "plan/LightPlanner.h"
 
 namespace tyndall::passes::pixel_tree {
 
-struct In {
-  bool countVisits = false; ///< add what the walks look at to the debug view, instead of light to the destination
-};
+/// By Technique::Tree or LowRank.
+void plan(LightPlanner& light);
 
-Status run(SliceContext& context, const In& in);
-
-/// Every variant that run() can ask for of a light's variant.
-std::vector<gl::Variant> variantsOf(const exact::Variant& variant);
+/// Adds what the walks look at to the debug view, instead of light to the destination.
+void planVisits(LightPlanner& light);
 
 } // namespace tyndall::passes::pixel_tree

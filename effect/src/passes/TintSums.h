@@ -2,18 +2,11 @@
 // passes (Chen 2011, 3.4; glsl/passes/tintGroups, tintSums).
 #pragma once
 
-#include "passes/Rows.h"
+#include "plan/LightPlanner.h"
 
 namespace tyndall::passes::tint_sums {
 
-struct In {
-  rows::Out rows;
-};
-
-/// Of the selected draw; leaves the sums bound for the walk along its rows. Needs the low-rank tables bound.
-Status run(SliceContext& context, const In& in);
-
-/// All programs of a light with glass.
-std::vector<gl::Variant> variantsOf(const exact::Variant& variant);
+/// Of the selected draw, whose rows are at hand, and with the tables of Technique::LowRank.
+void plan(LightPlanner& light);
 
 } // namespace tyndall::passes::tint_sums

@@ -100,7 +100,6 @@ void Drawer::endFrame() {
 Defines Drawer::definesFor(const tyndall::Frame& frame, const tyndall::Light* light) const {
   Defines defines;
   define(defines, "MONOCHROME", isMonochrome(frame.medium) ? 1 : 0);
-  define(defines, "DEPTH_MULTISAMPLED", 0);
   define(defines, "COMPOSITE", frame.output.inscatter ? 0 : 1);
   if (!light) return defines;
   define(defines, "LIGHT_KIND", static_cast<int>(light->kind));

@@ -34,11 +34,11 @@ Bytes lightBlock(const tyndall::Frame& frame, const tyndall::Light& light, int s
 glm::dmat4 cameraFromTexel(const tyndall::Frame& frame, const tyndall::Light& light, int shadowWidth,
                            int shadowHeight) {
   return glm::inverse(
-      glm::dmat4(tyndall::optics::lightBlock(frame, light, shadowWidth, shadowHeight).texelFromCamera[0]));
+      glm::dmat4(tyndall::optics::lightBlock(frame, light, shadowWidth, shadowHeight).shadowViews[0].texelFromCamera));
 }
 
 bool isReversedMap(const tyndall::Frame& frame, const tyndall::Light& light) {
-  return tyndall::optics::lightBlock(frame, light, 1, 1).viewDepth[0].z < 0;
+  return tyndall::optics::lightBlock(frame, light, 1, 1).shadowViews[0].depthSign < 0;
 }
 
 glm::dmat4 clipFromCamera(const tyndall::Frame& frame) {

@@ -18,5 +18,5 @@ void main() {
   bool chosen = source.x == float(at.y) || source.y == float(at.y);
   Ray ray = cameraRay(sampleAt(texelFetch(lines, ivec2(at.x, 0), 0), at.y));
   float end = chosen ? texelFetch(sampleEnds, at, 0).r : 0.0;
-  outInscatter = vec4(min(lightColour.rgb * vec3(texelSteppedLight(ray, end)), vec3(65504.0)), 1.0);
+  outInscatter = vec4(min(lightColour * vec3(texelSteppedLight(ray, end)), vec3(65504.0)), 1.0);
 }

@@ -13,9 +13,9 @@
 #include "common/final.glsl"
 
 void main() {
-  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy), 0)), 0.0);
+  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy))), 0.0);
   vec4 sum = unwarped(gl_FragCoord.xy, end);
   vec3 inscatter = sum.rgb / max(sum.w, 1e-20);
-  if (sum.w < 0.05) inscatter = lightColour.rgb * vec3(texelSteppedLight(cameraRay(gl_FragCoord.xy), end));
+  if (sum.w < 0.05) inscatter = lightColour * vec3(texelSteppedLight(cameraRay(gl_FragCoord.xy), end));
   writeFinal(inscatter, end);
 }

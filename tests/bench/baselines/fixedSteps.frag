@@ -11,7 +11,7 @@
 uniform int steps;
 
 void main() {
-  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy), 0)), 0.0);
+  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy))), 0.0);
   Light light = steppedLight(cameraRay(gl_FragCoord.xy), end, steps, gradientNoise(gl_FragCoord.xy));
-  writeFinal(lightColour.rgb * vec3(light), end);
+  writeFinal(lightColour * vec3(light), end);
 }

@@ -10,9 +10,9 @@
 uniform sampler3D volume;
 
 void main() {
-  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy), 0)), 0.0);
-  float k = boundaryOf(min(end, extinction.w));
+  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy))), 0.0);
+  float k = boundaryOf(min(end, visibleEnd));
   float layer = end > 1.001 * farEnd ? float(slices) + 0.5 : max(k, 1.0) - 0.5;
-  vec3 at = vec3(gl_FragCoord.xy / vec2(counts.zw), layer / float(textureSize(volume, 0).z));
+  vec3 at = vec3(gl_FragCoord.xy / vec2(frameSize), layer / float(textureSize(volume, 0).z));
   writeFinal(textureLod(volume, at, 0.0).rgb * min(k, 1.0), end);
 }

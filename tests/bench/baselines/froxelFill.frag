@@ -15,9 +15,9 @@ layout(location = 0) out vec4 outSlices[8]; // seven layers and the carry
 
 void main() {
   vec2 shape = vec2(textureSize(carry, 0));
-  Ray ray = cameraRay(gl_FragCoord.xy / shape * vec2(counts.zw));
+  Ray ray = cameraRay(gl_FragCoord.xy / shape * vec2(frameSize));
   Airlight light = airlightOf(ray);
-  float low = 0.0, high = extinction.w;
+  float low = 0.0, high = visibleEnd;
   litRange(light, low, high);
 #if SHADOW_VIEWS == 1
   ViewLine line = viewLine(0, ray);
@@ -38,11 +38,11 @@ void main() {
 #elif SHADOW_VIEWS == 1
     float s = 0.5 * (s0 + s1);
     if (s1 > s0 && s >= from && s <= to) part = shadowedSteps(light, line, ray, s0, s1, 1, 0.5);
-    else if (s1 > s0 && viewCounts.y != 0) part = Light(airlight(light, s0, s1));
+    else if (s1 > s0 && isLitOutside != 0) part = Light(airlight(light, s0, s1));
 #else
     if (s1 > s0) part = shadowedSteps(light, line, ray, s0, s1, 1, 0.5);
 #endif
-    sum += lightColour.rgb * vec3(part);
+    sum += lightColour * vec3(part);
     outSlices[i] = vec4(min(sum, vec3(65504.0)), 1.0);
   }
   outSlices[7] = vec4(sum, 1.0);

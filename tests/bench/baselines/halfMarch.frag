@@ -13,8 +13,8 @@ layout(location = 0) out vec4 outInscatter;
 layout(location = 1) out float outEnd;
 
 float endAt(ivec2 pixel) {
-  pixel = min(pixel, counts.zw - 1);
-  return max(rayEnd(vec2(pixel) + 0.5, depthAt(pixel, 0)), 0.0);
+  pixel = min(pixel, frameSize - 1);
+  return max(rayEnd(vec2(pixel) + 0.5, depthAt(pixel)), 0.0);
 }
 
 void main() {
@@ -23,6 +23,6 @@ void main() {
   vec2 low = min(ends.xy, ends.zw), high = max(ends.xy, ends.zw);
   float end = ((half_.x + half_.y) & 1) == 0 ? min(low.x, low.y) : max(high.x, high.y);
   Light light = steppedLight(cameraRay(2.0 * gl_FragCoord.xy), end, steps, gradientNoise(gl_FragCoord.xy));
-  outInscatter = vec4(min(lightColour.rgb * vec3(light), vec3(65504.0)), 1.0);
+  outInscatter = vec4(min(lightColour * vec3(light), vec3(65504.0)), 1.0);
   outEnd = end;
 }

@@ -11,7 +11,7 @@ uniform sampler2D halfInscatter;
 uniform sampler2D halfEnd;
 
 void main() {
-  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy), 0)), 0.0);
+  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy))), 0.0);
   vec2 p = 0.5 * gl_FragCoord.xy - 0.5;
   ivec2 low = ivec2(floor(p)), last = textureSize(halfEnd, 0) - 1;
   vec2 f = p - vec2(low);

@@ -44,7 +44,7 @@ void leaveNode(ViewLine line, inout Walk walk, float s, int axis) {
 }
 
 Light walkedLight(Airlight light, ViewLine line, float from, float to) {
-  ivec2 last = viewCounts.zw - 1;
+  ivec2 last = shadowMapSize - 1;
   Walk walk = Walk(clamp(ivec2(floor(line.origin.xy + from * line.slope.xy)), ivec2(0), last), top, from);
   int guard = 8 * (last.x + last.y + 2); // bounds the loops whatever the arithmetic does
   Light sum = Light(0.0);
@@ -83,16 +83,16 @@ Light walkedLight(Airlight light, ViewLine line, float from, float to) {
 }
 
 void main() {
-  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy), 0)), 0.0);
+  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy))), 0.0);
   Ray ray = cameraRay(gl_FragCoord.xy);
   Airlight light = airlightOf(ray);
-  float s1 = min(end, extinction.w), from = 0.0, to = s1;
+  float s1 = min(end, visibleEnd), from = 0.0, to = s1;
   ViewLine line = viewLine(0, ray);
   clipToSides(line, from, to);
   Light sum = Light(0.0);
   if (!(to > from)) from = to = s1;
-  if (viewCounts.y != 0 && from > 0.0) sum += Light(airlight(light, 0.0, from));
-  if (viewCounts.y != 0 && to < s1) sum += Light(airlight(light, to, s1));
+  if (isLitOutside != 0 && from > 0.0) sum += Light(airlight(light, 0.0, from));
+  if (isLitOutside != 0 && to < s1) sum += Light(airlight(light, to, s1));
   if (to > from) sum += walkedLight(light, line, from, to);
-  writeFinal(lightColour.rgb * vec3(sum), end);
+  writeFinal(lightColour * vec3(sum), end);
 }

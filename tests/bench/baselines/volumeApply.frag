@@ -7,6 +7,6 @@
 uniform sampler2D faces;
 
 void main() {
-  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy), 0)), 0.0);
+  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy))), 0.0);
   writeFinal(max(texelFetch(faces, ivec2(gl_FragCoord.xy), 0).rgb, vec3(0.0)), end);
 }

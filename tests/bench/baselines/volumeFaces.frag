@@ -15,11 +15,11 @@ in vec3 cameraPosition;
 
 void main() {
   Ray ray = cameraRay(gl_FragCoord.xy);
-  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy), 0)), 0.0), sign_ = 1.0;
+  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy))), 0.0), sign_ = 1.0;
 #if FACES
   end = min(end, max(dot(cameraPosition - ray.origin, ray.direction), 0.0));
   sign_ = gl_FrontFacing ? front : -front;
 #endif
-  vec3 light = vec3(airlight(airlightOf(ray), 0.0, min(end, extinction.w)));
-  outInscatter = vec4(sign_ * lightColour.rgb * light, 1.0);
+  vec3 light = vec3(airlight(airlightOf(ray), 0.0, min(end, visibleEnd)));
+  outInscatter = vec4(sign_ * lightColour * light, 1.0);
 }

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 #include <functional>
+#include <utility>
 
 using namespace tyndall;
 using host::gl;
@@ -55,9 +56,21 @@ void GLAD_API_PTR sayFewLayers(GLenum name, GLint* value) {
   if (name == GL_MAX_ARRAY_TEXTURE_LAYERS) *value = 5;
   if (name == GL_MAX_TEXTURE_SIZE) *value = 512;
 }
-GLenum GLAD_API_PTR runOutOfMemory() { return gl().GetError() == GL_NO_ERROR ? GL_OUT_OF_MEMORY : GL_INVALID_ENUM; }
 bool failing = false;
-GLenum GLAD_API_PTR runOutOfMemoryLater() { return failing ? runOutOfMemory() : gl().GetError(); }
+
+// Memory that has run out, behind GL's one error flag.
+GLenum flag = GL_NO_ERROR;
+void runOut() {
+  if (flag == GL_NO_ERROR) flag = GL_OUT_OF_MEMORY;
+}
+GLenum GLAD_API_PTR askFlag() { return flag != GL_NO_ERROR ? std::exchange(flag, GL_NO_ERROR) : gl().GetError(); }
+void GLAD_API_PTR storeNothing(GLenum, GLsizei, GLenum, GLsizei, GLsizei, GLsizei) { runOut(); }
+void GLAD_API_PTR allocate(GLenum target, GLsizeiptr size, const void* data, GLenum usage) {
+  failing ? runOut() : gl().BufferData(target, size, data, usage);
+}
+GLboolean GLAD_API_PTR isArray(GLuint name) { return failing ? GL_FALSE : gl().IsVertexArray(name); }
+GLenum GLAD_API_PTR errorOfLostContext() { return failing ? GL_CONTEXT_LOST : gl().GetError(); }
+GLenum GLAD_API_PTR refuseFramebuffer(GLenum) { return GL_FRAMEBUFFER_UNSUPPORTED; }
 void GLAD_API_PTR refuseShaders(GLuint shader, GLenum name, GLint* value) {
   gl().GetShaderiv(shader, name, value);
   if (name == GL_COMPILE_STATUS) *value = GL_FALSE;
@@ -99,6 +112,9 @@ TEST_CASE("avsm: every field of a config that breaks its rule is named") {
   for (const int reduction : {-1, 3})
     check("reduction", std::to_string(reduction), "enumerators",
           [&](AvsmConfig& c) { c.reduction = static_cast<CurveReduction>(reduction); });
+  for (const int state : {-1, 2})
+    check("state", std::to_string(state), "enumerators",
+          [&](AvsmConfig& c) { c.state = static_cast<StateMode>(state); });
 }
 
 TEST_CASE("avsm: a map that is too large for the context is refused") {
@@ -175,8 +191,7 @@ TEST_CASE("avsm: calls out of order, and bindings that the context lacks") {
 TEST_CASE("avsm: a lost context is never Ok, and stays lost") {
   if (!tests::hasAvsm()) return;
   const auto checkLost = [](const Status& status) { checkRefused(status, StatusCode::ContextLost, {"lost"}); };
-  const FakeContext fake(
-      {}, {{"glGetError", address(+[]() -> GLenum { return failing ? GL_CONTEXT_LOST : gl().GetError(); })}});
+  const FakeContext fake({}, {{"glGetError", address(errorOfLostContext)}, {"glIsVertexArray", address(isArray)}});
   failing = true;
   checkLost(Avsm::create(smallConfig(fake.loader())).status);
   const Light light;
@@ -218,11 +233,18 @@ TEST_CASE("avsm: calls that use programs are refused during transform feedback")
 TEST_CASE("avsm: running out of memory, and shaders that do not build, are reported") {
   if (!tests::hasAvsm()) return;
   {
-    const FakeContext fake({}, {{"glGetError", address(runOutOfMemory)}});
-    checkRefused(smallConfig(fake.loader()), StatusCode::OutOfMemory, {"bytes for curves"});
+    const FakeContext fake({}, {{"glGetError", address(askFlag)}, {"glTexStorage3D", address(storeNothing)}});
+    for (const GLenum engines : {GL_NO_ERROR, GL_INVALID_VALUE}) {
+      flag = engines;
+      checkRefused(smallConfig(fake.loader()), StatusCode::OutOfMemory, {"bytes for curves"});
+      CHECK(askFlag() == engines);
+      CHECK(askFlag() == GL_NO_ERROR);
+    }
+    tests::testContext().takeErrors();
   }
   {
-    const FakeContext fake({}, {{"glGetError", address(runOutOfMemoryLater)}});
+    const FakeContext fake({}, {{"glGetError", address(askFlag)}, {"glBufferData", address(allocate)}});
+    failing = false;
     const AvsmResult result = Avsm::create(smallConfig(fake.loader()));
     REQUIRE(result.avsm);
     failing = true;
@@ -242,6 +264,111 @@ TEST_CASE("avsm: running out of memory, and shaders that do not build, are repor
   CHECK(status.code == StatusCode::ShaderError);
   CHECK(status.message.find("avsm") != std::string::npos);
   CHECK(result.avsm->curves().texture == 0);
+}
+
+TEST_CASE("avsm: a call that is refused leaves curves, lists and state as they were") {
+  if (!tests::hasAvsm()) return;
+  const FakeContext fake({}, {{"glGetShaderiv", address(+[](GLuint shader, GLenum name, GLint* value) {
+                                 gl().GetShaderiv(shader, name, value);
+                                 if (failing && name == GL_COMPILE_STATUS) *value = GL_FALSE;
+                               })},
+                              {"glCheckFramebufferStatus", address(refuseFramebuffer)},
+                              {"glGetError", address(askFlag)},
+                              {"glBufferData", address(allocate)}});
+  failing = false;
+  AvsmConfig config = smallConfig(fake.loader());
+  const AvsmResult result = Avsm::create(config);
+  REQUIRE(result.avsm);
+  Avsm& avsm = *result.avsm;
+  const auto checkNothing = [&](StatusCode code, const std::function<Status()>& call) {
+    const AvsmCurves before = avsm.curves();
+    const std::uint64_t bytes = avsm.statistics().listBytes;
+    const tests::Poison poison;
+    const tests::GlState state = tests::captureGlState();
+    const Status status = call();
+    const tests::GlState after = tests::captureGlState();
+    tests::Poison::lift();
+    INFO(status.message);
+    CHECK(status.code == code);
+    CHECK(avsm.curves().texture == before.texture);
+    CHECK(avsm.curves().version == before.version);
+    CHECK(avsm.statistics().listBytes == bytes);
+    for (const auto& [name, values] : state) {
+      CAPTURE(name);
+      CHECK(after.at(name) == values);
+    }
+  };
+  failing = true;
+  checkNothing(StatusCode::ShaderError, [&] { return avsm.beginStreaming(); });
+  checkNothing(StatusCode::OutOfMemory, [&] { return avsm.begin(); });
+  failing = false;
+  tests::captureInto(avsm, kSmoke);
+  failing = true;
+  checkNothing(StatusCode::ShaderError, [&] { return avsm.resolve(); });
+  failing = false;
+  CHECK(avsm.resolve()); // what was captured is there still
+  CHECK(avsm.statistics().segments == kSmoke.size());
+  checkNothing(StatusCode::InvalidFrame, [&] { return avsm.resolve(); });
+  CHECK(avsm.beginStreaming());
+  checkNothing(StatusCode::InvalidFrame, [&] { return avsm.bindCurves(0); });
+  checkNothing(StatusCode::InvalidFrame, [&] { return avsm.drawParticles({}, {}); });
+}
+
+TEST_CASE("avsm: errors that the engine has not asked for are its own still") {
+  if (!tests::hasAvsm()) return;
+  const auto checkPending = [](const std::function<Status()>& call) {
+    gl().Enable(GL_TEXTURE_2D_ARRAY);
+    tests::testContext().takeErrors();
+    gl().Enable(GL_TEXTURE_2D_ARRAY);
+    const Status status = call();
+    INFO(status.message);
+    CHECK(status);
+    CHECK(gl().GetError() == GL_INVALID_ENUM);
+    CHECK(gl().GetError() == GL_NO_ERROR);
+    CHECK(tests::testContext().takeErrors().size() <= 1); // the engine's own message
+  };
+  AvsmResult result;
+  checkPending([&] {
+    result = Avsm::create(smallConfig(tests::testContext().loader()));
+    return result.status;
+  });
+  REQUIRE(result.avsm);
+  for (int frame = 0; frame < 2; ++frame) {
+    checkPending([&] { return result.avsm->begin(); });
+    checkPending([&] { return result.avsm->resolve(); });
+    checkPending([&] { return result.avsm->beginStreaming(); });
+    checkPending([&] { return result.avsm->bindCurves(0); });
+    checkPending([&] { return result.avsm->resolve(); });
+    gl().BindFramebuffer(GL_FRAMEBUFFER, 0);
+  }
+}
+
+TEST_CASE("avsm: with StateMode::Leave storage bindings are left empty, and the curves are the same") {
+  if (!tests::hasAvsm()) return;
+  AvsmConfig config = smallConfig(tests::testContext().loader());
+  AvsmRig rig(config);
+  rig.capture(kSmoke);
+  config.state = StateMode::Leave;
+  AvsmRig leaving(config);
+  tests::captureInto(leaving.avsm(), kSmoke);
+  const tests::Poison poison;
+  const tests::GlState before = tests::captureGlState();
+  CHECK(leaving.avsm().resolve());
+  const tests::GlState after = tests::captureGlState();
+  tests::Poison::lift();
+  CHECK(leaving.bits() == rig.bits());
+  CHECK(before.at("program") != std::vector<double>{0});
+  for (const auto& [name, values] : after) {
+    CAPTURE(name);
+    const bool storage = name.find("storage binding") == 0,
+               image = name.find("image " + std::to_string(GL_IMAGE_BINDING_NAME)) == 0;
+    const bool ours = name.find("[0]") != std::string::npos ||
+                      (storage && (name.find("[1]") != std::string::npos || name.find("[2]") != std::string::npos));
+    if ((storage || image) && ours) CHECK(values == std::vector<double>{0});
+    if ((storage || image) && !ours) CHECK(values == before.at(name));
+    if (name == "program" || name == "shader storage buffer") CHECK(values == std::vector<double>{0});
+    if (name.find("viewport") == 0) CHECK(values == before.at(name));
+  }
 }
 
 TEST_CASE("avsm: a poisoned GL state is on return what it was on entry") {

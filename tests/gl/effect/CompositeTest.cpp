@@ -239,12 +239,13 @@ TEST_CASE("statistics name the passes and time them") {
       sum += pass.milliseconds;
     }
     CHECK(sum <= taken.count()); // passes follow one another, and it waited for them
-    CHECK(names == std::vector<std::string>{"exact light 0", "exact light 1", "exact light 2", "composite"});
-    CHECK(statistics.compiledPrograms == 4);
+    CHECK(names ==
+          std::vector<std::string>{"transmittance", "exact light 0", "exact light 1", "exact light 2", "composite"});
+    CHECK(statistics.compiledPrograms == 5);
     CHECK(statistics.bytes > 0);
     REQUIRE(result.effect->render(rig.frame));
-    CHECK(result.effect->statistics().passes.size() == 4); // of the last frame only
-    CHECK(result.effect->statistics().compiledPrograms == 4);
+    CHECK(result.effect->statistics().passes.size() == 5); // of the last frame only
+    CHECK(result.effect->statistics().compiledPrograms == 5);
     Frame frame = rig.frame;
     frame.output.inscatter = 0;
     REQUIRE(result.effect->render(frame));

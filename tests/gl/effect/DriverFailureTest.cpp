@@ -26,20 +26,30 @@ void GLAD_API_PTR refuseToLink(GLuint program, GLenum name, GLint* value) {
 GLenum GLAD_API_PTR refuseFramebuffer(GLenum target) {
   return --failFrom <= 0 ? GL_FRAMEBUFFER_UNSUPPORTED : host::gl().CheckFramebufferStatus(target);
 }
-GLenum GLAD_API_PTR runOutOfMemory() {
-  return host::gl().GetError() == GL_NO_ERROR ? GL_OUT_OF_MEMORY : GL_INVALID_ENUM;
-}
 
-// A reset of the GPU, as soon as there have been so many draws.
+// Memory that has run out, and GL's one error flag: an error of the engine's, if it was there first, hides ours.
+GLenum flag = GL_NO_ERROR;
+void GLAD_API_PTR allocateNothing(GLenum, GLint, GLint, GLsizei, GLsizei, GLint, GLenum, GLenum, const void*) {
+  if (flag == GL_NO_ERROR) flag = GL_OUT_OF_MEMORY;
+}
+GLenum GLAD_API_PTR askFlag() { return flag != GL_NO_ERROR ? std::exchange(flag, GL_NO_ERROR) : host::gl().GetError(); }
+const std::map<std::string, void*> kNoMemory = {{"glTexImage2D", address(allocateNothing)},
+                                                {"glGetError", address(askFlag)}};
+
+// A reset of the GPU, as soon as there have been so many draws: GL answers questions about objects with no.
 bool lost = false;
 int drawsUntilLost = 0;
 GLenum GLAD_API_PTR errorOfLostContext() { return lost ? GL_CONTEXT_LOST : host::gl().GetError(); }
+GLboolean GLAD_API_PTR isArray(GLuint name) { return lost ? GL_FALSE : host::gl().IsVertexArray(name); }
+GLboolean GLAD_API_PTR isSampler(GLuint name) { return lost ? GL_FALSE : host::gl().IsSampler(name); }
 GLenum GLAD_API_PTR resetOnce() { return std::exchange(lost, false) ? GL_INNOCENT_CONTEXT_RESET : GL_NO_ERROR; }
 void GLAD_API_PTR drawUntilLost(GLenum mode, GLint first, GLsizei count) {
   if (--drawsUntilLost < 0) lost = true;
   if (!lost) host::gl().DrawArrays(mode, first, count);
 }
 const std::map<std::string, void*> kErrors = {{"glGetError", address(errorOfLostContext)},
+                                              {"glIsVertexArray", address(isArray)},
+                                              {"glIsSampler", address(isSampler)},
                                               {"glDrawArrays", address(drawUntilLost)}};
 const std::map<std::string, void*> kResetStatus = {{"glGetGraphicsResetStatus", address(resetOnce)},
                                                    {"glGetGraphicsResetStatusARB", address(resetOnce)},
@@ -120,7 +130,8 @@ TEST_CASE("a framebuffer that the context refuses is reported and nothing is dra
 TEST_CASE("running out of memory is reported and nothing is drawn") {
   FailingFrame frame;
   frame.scene.frame.output.transmittance = 0; // so that a target of the effect's own is needed
-  const FakeContext fake({}, {{"glGetError", address(runOutOfMemory)}});
+  flag = GL_NO_ERROR;
+  const FakeContext fake({}, kNoMemory);
   const CreateResult result = fake.create();
   REQUIRE(result.effect);
   frame.check(*result.effect, StatusCode::OutOfMemory);
@@ -155,7 +166,7 @@ TEST_CASE("a context that is lost in the middle of a frame is not Ok") {
       for (int draws = 0; draws < 3; ++draws) {
         FailingFrame frame;
         frame.scene.frame.settings.technique = technique;
-        frame.scene.frame.settings.view = View::Difference; // many draws, and a mean that is read
+        frame.scene.frame.settings.debugView = DebugView::Difference; // many draws, and a mean that is read
         const FakeContext fake({}, signs);
         lost = false;
         const CreateResult result = fake.create();

@@ -135,9 +135,9 @@ TEST_CASE("debug views read nothing that no pass has written") {
   tests::ShaftRig rig(48, 32);
   addLight(rig, kCases[0]);
   rig.scene.frame.settings.technique = Technique::Epipolar;
-  for (int view = 0; view <= static_cast<int>(View::Redrawn); ++view) {
+  for (int view = 0; view <= static_cast<int>(DebugView::Redrawn); ++view) {
     CAPTURE(view);
-    rig.scene.frame.settings.view = static_cast<View>(view);
+    rig.scene.frame.settings.debugView = static_cast<DebugView>(view);
     std::vector<std::vector<float>> pictures;
     for (Effect* effect : {poisoned.created.effect.get(), &tests::testEffect()}) {
       const host::GlTexture colour = rig.scene.makeColour(GL_RGBA32F, std::vector<float>(4 * 48 * 32, 0.5F));

@@ -191,6 +191,12 @@ const std::vector<Breakage> kBreakages = {
     {"a fade of a point light",
      [](Frame& f) { f.lights[1].cascadeFade = 0.1; },
      {"lights[1].cascadeFade is 0.1", "directional"}},
+    {"several views without an array",
+     [](Frame& f) {
+       f.lights[0].shadow.array = false;
+       f.lights[0].shadow.views.resize(2);
+     },
+     {"lights[0].shadow.array is false", "several views need a GL_TEXTURE_2D_ARRAY"}},
     {"7 faces", [](Frame& f) { f.lights[1].shadow.views.resize(7); }, {"lights[1].shadow.views is 7 long", "1 to 6"}},
     {"2 spot views",
      [](Frame& f) { f.lights[2].shadow.views.resize(2); },
@@ -216,33 +222,33 @@ const std::vector<Breakage> kBreakages = {
      [](Frame& f) { setEnum(f.medium.constituents[0].phase, -1); },
      {"medium.constituents[0].phase is -1", "enumerators"}},
     {"technique", [](Frame& f) { setEnum(f.settings.technique, 99); }, {"settings.technique is 99", "enumerators"}},
-    {"view", [](Frame& f) { setEnum(f.settings.view, 11); }, {"settings.view is 11", "enumerators"}},
-    {"view below", [](Frame& f) { setEnum(f.settings.view, -1); }, {"settings.view is -1", "enumerators"}},
+    {"view", [](Frame& f) { setEnum(f.settings.debugView, 11); }, {"settings.debugView is 11", "enumerators"}},
+    {"view below", [](Frame& f) { setEnum(f.settings.debugView, -1); }, {"settings.debugView is -1", "enumerators"}},
     {"slices of exact",
-     [](Frame& f) { f.settings.view = View::Slices; },
-     {"settings.view is Slices", "technique Tree, LowRank or Epipolar"}},
+     [](Frame& f) { f.settings.debugView = DebugView::Slices; },
+     {"settings.debugView is Slices", "technique Tree, LowRank or Epipolar"}},
     {"fix-up pixels of exact",
-     [](Frame& f) { f.settings.view = View::FixupPixels; },
-     {"settings.view is FixupPixels", "technique Tree, LowRank or Epipolar"}},
+     [](Frame& f) { f.settings.debugView = DebugView::FixupPixels; },
+     {"settings.debugView is FixupPixels", "technique Tree, LowRank or Epipolar"}},
     {"samples of tree",
      [](Frame& f) {
        f.settings.technique = Technique::Tree;
-       f.settings.view = View::MarchSamples;
+       f.settings.debugView = DebugView::MarchSamples;
      },
-     {"settings.view is MarchSamples", "technique Epipolar"}},
+     {"settings.debugView is MarchSamples", "technique Epipolar"}},
     {"slices of a multisampled depth",
      [](Frame& f) {
        f.settings.technique = Technique::Epipolar;
        f.depth.multisampled = true;
-       f.settings.view = View::NodeVisits;
+       f.settings.debugView = DebugView::NodeVisits;
      },
-     {"settings.view is NodeVisits", "not multisampled"}},
+     {"settings.debugView is NodeVisits", "not multisampled"}},
     {"view without colour",
      [](Frame& f) {
        f.colour = 0;
-       f.settings.view = View::Inscatter;
+       f.settings.debugView = DebugView::Inscatter;
      },
-     {"settings.view is Inscatter", "Frame::colour"}},
+     {"settings.debugView is Inscatter", "Frame::colour"}},
     {"filter", [](Frame& f) { setEnum(f.settings.shadowFilter, 2); }, {"settings.shadowFilter is 2", "enumerators"}},
 };
 

@@ -20,7 +20,7 @@ struct Mode {
   std::string name;
   Technique technique = Technique::Epipolar;
   Changes changes = Changes::Unknown;
-  View view = View::Composite;
+  DebugView view = DebugView::Composite;
   bool outputs = false; // of the engine's own, besides its colour
 };
 
@@ -30,20 +30,21 @@ const std::vector<Mode>& modes() {
                               {"tree", Technique::Tree},
                               {"exact", Technique::Exact},
                               {"low rank", Technique::LowRank},
-                              {"epipolar, outputs", Technique::Epipolar, Changes::Unknown, View::Composite, true},
-                              {"exact, outputs", Technique::Exact, Changes::Unknown, View::Composite, true},
+                              {"epipolar, outputs", Technique::Epipolar, Changes::Unknown, DebugView::Composite, true},
+                              {"exact, outputs", Technique::Exact, Changes::Unknown, DebugView::Composite, true},
                               {"detect", Technique::Epipolar, Changes::Detect},
                               {"objects", Technique::Epipolar, Changes::Objects},
                               {"tree, detect", Technique::Tree, Changes::Detect},
-                              {"objects, redrawn", Technique::Epipolar, Changes::Objects, View::Redrawn}};
-    for (int view = 1; view < static_cast<int>(View::Redrawn); ++view)
-      list.push_back({"view " + std::to_string(view), Technique::Epipolar, Changes::Unknown, static_cast<View>(view)});
+                              {"objects, redrawn", Technique::Epipolar, Changes::Objects, DebugView::Redrawn}};
+    for (int view = 1; view < static_cast<int>(DebugView::Redrawn); ++view)
+      list.push_back(
+          {"view " + std::to_string(view), Technique::Epipolar, Changes::Unknown, static_cast<DebugView>(view)});
     return list;
   }();
   return all;
 }
 
-// What a mode's frames, one or two, draw: colour, outputs, and last the visits that View::NodeVisits counts.
+// What a mode's frames, one or two, draw: colour, outputs, and last the visits that DebugView::NodeVisits counts.
 using Picture = std::vector<std::vector<float>>;
 
 class Engine {
@@ -51,7 +52,7 @@ public:
   explicit Engine(const Mode& mode) : mode_(mode) {
     tests::reuse::begin(rig_, mode.changes);
     rig_.scene.frame.settings.technique = mode.technique;
-    rig_.scene.frame.settings.view = mode.view;
+    rig_.scene.frame.settings.debugView = mode.view;
     rig_.addLight(tests::reuse::sun(), 64, true);
     if (!mode.outputs) rig_.scene.frame.output = {};
     const std::vector<float> values(4 * kWidth * kHeight, kBefore);

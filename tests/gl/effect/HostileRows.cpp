@@ -392,6 +392,7 @@ void addUnderWay(Rows& rows) {
                       gl().BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
                     }});
   rows.push_back(query("a query of samples", GL_SAMPLES_PASSED));
+  rows.push_back(query("a query whether any sample passes", GL_ANY_SAMPLES_PASSED));
   rows.push_back(query("a query of primitives", GL_PRIMITIVES_GENERATED));
   rows.push_back(query("a query of time", GL_TIME_ELAPSED));
   rows.push_back({"a debug group",

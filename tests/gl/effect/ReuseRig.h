@@ -82,7 +82,7 @@ inline void moveTo(tests::ShaftRig& rig, int frame) {
 inline void begin(tests::ShaftRig& rig, Changes changes) {
   rig.scene.frame.settings.technique = Technique::Epipolar;
   rig.scene.frame.reuse.changes = changes;
-  rig.scene.frame.reuse.view = newView();
+  rig.scene.frame.reuse.eye = newView();
 }
 
 // A small frame of a sun whose maps' versions stay as they are.

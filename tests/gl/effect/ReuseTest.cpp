@@ -58,15 +58,15 @@ Light sunOverhead() {
   return light;
 }
 
-// What View::Redrawn shows of the frame, which is drawn: true for red.
+// What DebugView::Redrawn shows of the frame, which is drawn: true for red.
 std::vector<bool> maskOf(tests::ShaftRig& rig) {
   Frame& frame = rig.scene.frame;
   const auto pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
   const host::GlTexture colour = rig.scene.makeColour(GL_RGBA32F, std::vector<float>(4 * pixels, 0.25F));
-  frame.settings.view = View::Redrawn;
+  frame.settings.debugView = DebugView::Redrawn;
   rig.scene.render();
   const std::vector<float> rgba = host::readColour(colour.name(), frame.width, frame.height);
-  frame.settings.view = View::Composite;
+  frame.settings.debugView = DebugView::Composite;
   frame.colour = 0;
   std::vector<bool> mask;
   for (std::size_t i = 0; i < pixels; ++i)

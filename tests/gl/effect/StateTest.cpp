@@ -1,6 +1,8 @@
 // The contract with an engine: GL state on return equals GL state on entry, of refused frames too, and textures keep
 // their parameters. What states an engine may leave behind: HostileRows.cpp.
+#include "FakeContext.h"
 #include "GlState.h"
+#include "SceneRig.h"
 #include "gl/ReadBack.h"
 #include "support/EffectRig.h"
 
@@ -98,9 +100,9 @@ TEST_CASE("frames that reuse the last one leave a poisoned GL state alone") {
   Frame frame = full.rig.frame;
   frame.settings.technique = Technique::Epipolar;
   for (const Changes changes : {Changes::Detect, Changes::Objects})
-    for (const View view : {View::Composite, View::Redrawn})
+    for (const DebugView view : {DebugView::Composite, DebugView::Redrawn})
       for (int number = 0; number < 4; ++number) { // all, parts of it, nothing
-        frame.settings.view = view;
+        frame.settings.debugView = view;
         frame.reuse = {changes, 71, static_cast<std::uint64_t>(number), 1.0F, 0};
         frame.objects.clear();
         if (changes == Changes::Objects && number < 3) frame.objects.assign(1, {});
@@ -108,6 +110,103 @@ TEST_CASE("frames that reuse the last one leave a poisoned GL state alone") {
         CAPTURE(static_cast<int>(changes), static_cast<int>(view), number);
         checkStateKept(frame);
       }
+}
+
+namespace {
+
+// What the header says of StateMode::Leave, over a state that was there before.
+tests::GlState left(tests::GlState state, const Frame& frame) {
+  for (const char* row :
+       {"program",         "vertex array",      "draw framebuffer",   "renderbuffer",       "pixel unpack buffer",
+        "uniform buffer",  "unpack row length", "unpack skip rows",   "unpack skip pixels", "unpack swap bytes",
+        "blend",           "cull face",         "depth test",         "stencil test",       "scissor test",
+        "dither",          "logic op",          "rasterizer discard", "framebuffer sRGB",   "sample mask",
+        "sample coverage", "alpha to coverage", "alpha to one",       "polygon smooth",     "clip distance 0",
+        "clip distance 7", "stencil ref",       "stencil back ref"})
+    state.at(row) = {0};
+  state.at("active texture") = {GL_TEXTURE0};
+  state.at("unpack alignment") = {4};
+  state.at("polygon mode").at(0) = GL_FILL;
+  if (state.count("clip origin") != 0) {
+    state.at("clip origin") = {GL_LOWER_LEFT};
+    state.at("clip depth mode") = {GL_NEGATIVE_ONE_TO_ONE};
+  }
+  state.at("viewport") = {0, 0, static_cast<double>(frame.width), static_cast<double>(frame.height)};
+  for (const std::string face : {"stencil ", "stencil back "}) {
+    state.at(face + "func") = {GL_ALWAYS};
+    state.at(face + "value mask") = state.at(face + "write mask") = {2147483647.0}; // all bits, as an integer
+    state.at(face + "fail") = state.at(face + "pass") = {GL_KEEP};
+  }
+  state.at("stencil depth fail") = {GL_KEEP};
+  return state;
+}
+
+bool startsWith(const std::string& text, const std::string& start) { return text.rfind(start, 0) == 0; }
+
+// Of rows that there are several of.
+std::vector<double> leftOf(const std::string& row, const std::vector<double>& before, const Frame& frame) {
+  const auto query = [&](GLenum name) { return startsWith(row, "blend " + std::to_string(name)); };
+  if (startsWith(row, "colour mask")) return {1, 1, 1, 1};
+  if (startsWith(row, "blend[") || startsWith(row, "scissor[")) return {0};
+  if (query(GL_BLEND_SRC_RGB) || query(GL_BLEND_SRC_ALPHA)) return {GL_ONE};
+  if (query(GL_BLEND_DST_RGB) || query(GL_BLEND_DST_ALPHA)) return {GL_ZERO};
+  if (query(GL_BLEND_EQUATION_RGB) || query(GL_BLEND_EQUATION_ALPHA)) return {GL_FUNC_ADD};
+  if (row == "viewport[0]") return {0, 0, static_cast<double>(frame.width), static_cast<double>(frame.height)};
+  for (const char* binding : {"[0]", "[1]", "[2]"})
+    if (startsWith(row, "uniform binding") && row.find(binding) != std::string::npos) return {0};
+  return before;
+}
+
+bool isOfUnit(const std::string& row) { return startsWith(row, "unit "); }
+
+} // namespace
+
+TEST_CASE("with StateMode::Leave the state is as the header says, whatever it was, and nothing else of it changed") {
+  FullFrame full;
+  for (const bool multiBind : {true, false}) {
+    const tests::FakeContext fake(multiBind ? std::set<std::string>{} : std::set<std::string>{"glBindTextures"});
+    const CreateResult created = Effect::create({fake.loader(), PassTiming::Off, {}, StateMode::Leave});
+    REQUIRE(created.effect);
+    for (const Technique technique : {Technique::Exact, Technique::Tree, Technique::Epipolar}) {
+      CAPTURE(multiBind, static_cast<int>(technique));
+      Frame frame = full.rig.frame;
+      frame.settings.technique = technique;
+      const tests::Poison poison;
+      const tests::GlState before = tests::captureGlState();
+      const Status status = created.effect->render(frame);
+      const tests::GlState after = tests::captureGlState();
+      tests::Poison::lift();
+      CHECK(status);
+      std::size_t emptied = 0;
+      for (const auto& [row, values] : left(before, frame)) {
+        CAPTURE(row);
+        if (isOfUnit(row)) { // as many as it used
+          const bool isEmpty = after.at(row) == std::vector<double>{0};
+          emptied += isEmpty && values != after.at(row) ? 1 : 0;
+          CHECK((isEmpty || values == after.at(row)));
+        } else {
+          CHECK(after.at(row) == leftOf(row, values, frame));
+        }
+      }
+      CHECK(emptied > 0);
+    }
+  }
+}
+
+TEST_CASE("with StateMode::Leave the picture is that of StateMode::Restore, whatever the state was") {
+  FullFrame full;
+  const auto picture = [&] { return host::readColour(full.rig.frame.output.inscatter, 16, 16); };
+  full.rig.render();
+  const std::vector<float> expected = picture();
+  const CreateResult created = Effect::create({tests::testContext().loader(), PassTiming::Off, {}, StateMode::Leave});
+  REQUIRE(created.effect);
+  for (int i = 0; i < 2; ++i) {
+    const tests::Poison poison;
+    const Status status = created.effect->render(full.rig.frame);
+    tests::Poison::lift();
+    CHECK(status);
+    CHECK(tests::bitEqual(picture(), expected));
+  }
 }
 
 TEST_CASE("parameters of the engine's textures are not touched") {

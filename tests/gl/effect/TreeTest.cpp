@@ -112,7 +112,7 @@ double visitsThroughSlats(float averageThreshold) {
     slats.depth[i] = i / 512 / 3 % 2 == i % 512 / 5 % 2 ? 0.05F : 0.999F;
   rig.scene.setShadow(0, slats);
   rig.scene.frame.settings.averageThreshold = averageThreshold;
-  rig.scene.frame.settings.view = View::NodeVisits;
+  rig.scene.frame.settings.debugView = DebugView::NodeVisits;
   const host::GlTexture colour = host::makeTexture2D(GL_RGBA16F, 48, 32);
   rig.scene.frame.colour = colour.name();
   rig.picture(Technique::Tree);

@@ -15,9 +15,9 @@ namespace {
 constexpr LightKind kKinds[] = {LightKind::Directional, LightKind::Point, LightKind::Spot};
 constexpr float kAlpha = 0.5F;
 
-bool allows(Technique technique, View view) {
-  if (view < View::Slices || view > View::NodeVisits) return true;
-  if (technique == Technique::Tree) return view == View::Slices || view == View::NodeVisits;
+bool allows(Technique technique, DebugView view) {
+  if (view < DebugView::Slices || view > DebugView::NodeVisits) return true;
+  if (technique == Technique::Tree) return view == DebugView::Slices || view == DebugView::NodeVisits;
   return technique == Technique::Epipolar;
 }
 
@@ -37,10 +37,10 @@ struct Picture {
 };
 
 // Renders a view over a colour that it must replace, and whose alpha must stay.
-Picture pictureOf(tests::SceneRig& scene, View view, Effect& effect = tests::testEffect()) {
+Picture pictureOf(tests::SceneRig& scene, DebugView view, Effect& effect = tests::testEffect()) {
   const auto pixels = static_cast<std::size_t>(scene.frame.width) * static_cast<std::size_t>(scene.frame.height);
   const host::GlTexture colour = scene.makeColour(GL_RGBA32F, std::vector<float>(4 * pixels, kAlpha));
-  scene.frame.settings.view = view;
+  scene.frame.settings.debugView = view;
   const Status status = effect.render(scene.frame);
   INFO(status.message);
   REQUIRE(status);
@@ -48,7 +48,7 @@ Picture pictureOf(tests::SceneRig& scene, View view, Effect& effect = tests::tes
   for (std::size_t i = 0; i < pixels; ++i)
     REQUIRE(picture.rgba[4 * i + 3] == kAlpha);
   scene.frame.colour = 0;
-  scene.frame.settings.view = View::Composite;
+  scene.frame.settings.debugView = DebugView::Composite;
   return picture;
 }
 
@@ -91,8 +91,8 @@ TEST_CASE("every view draws for every technique and light, and leaves the output
       scene.frame.settings.technique = technique;
       scene.frame.settings.samples = 64;
       const reference::ImageAnswer expected = scene.render();
-      for (int i = 1; i <= static_cast<int>(View::Redrawn); ++i) {
-        const auto view = static_cast<View>(i);
+      for (int i = 1; i <= static_cast<int>(DebugView::Redrawn); ++i) {
+        const auto view = static_cast<DebugView>(i);
         CAPTURE(static_cast<int>(kind), static_cast<int>(technique), i);
         if (!allows(technique, view)) continue;
         const Picture picture = pictureOf(scene, view);
@@ -113,8 +113,8 @@ TEST_CASE("the views of inscatter and transmittance are the outputs") {
   tests::SceneRig scene = tests::threeLights();
   for (const Technique technique : {Technique::Exact, Technique::Epipolar}) {
     scene.frame.settings.technique = technique;
-    const Picture inscatter = pictureOf(scene, View::Inscatter);
-    const Picture transmittance = pictureOf(scene, View::Transmittance);
+    const Picture inscatter = pictureOf(scene, DebugView::Inscatter);
+    const Picture transmittance = pictureOf(scene, DebugView::Transmittance);
     const reference::ImageAnswer outputs = scene.outputs();
     for (std::size_t i = 0; i < inscatter.pixels(); ++i)
       for (std::size_t c = 0; c < 3; ++c) {
@@ -130,7 +130,7 @@ TEST_CASE("the fix-up view marks as many pixels as the statistics count") {
     rig.addLight(tests::shaftLight(kind));
     rig.scene.frame.settings.technique = Technique::Epipolar;
     rig.scene.frame.settings.leastWeight = 0.95F;
-    const Picture picture = pictureOf(rig.scene, View::FixupPixels);
+    const Picture picture = pictureOf(rig.scene, DebugView::FixupPixels);
     std::uint64_t marked = 0;
     for (std::size_t i = 0; i < picture.pixels(); ++i) {
       const bool isRed = picture.at(i) == glm::vec3(1, 0, 0);
@@ -149,8 +149,8 @@ TEST_CASE("the views of samples and march samples count every one of them") {
     tests::ShaftRig rig;
     rig.addLight(tests::shaftLight(kind));
     rig.scene.frame.settings.technique = Technique::Epipolar;
-    const glm::dvec3 samples = pictureOf(rig.scene, View::Samples).sum();
-    const glm::dvec3 march = pictureOf(rig.scene, View::MarchSamples).sum();
+    const glm::dvec3 samples = pictureOf(rig.scene, DebugView::Samples).sum();
+    const glm::dvec3 march = pictureOf(rig.scene, DebugView::MarchSamples).sum();
     const Statistics statistics = tests::testEffect().statistics();
     CAPTURE(static_cast<int>(kind), march.x, march.y, march.z);
     CHECK(samples.x > rig.scene.frame.width);
@@ -175,7 +175,7 @@ TEST_CASE("the view of breaks shows both sides of a step, near red and far blue"
   for (std::size_t i = 0; i < scene.distances.size(); ++i)
     scene.distances[i] = static_cast<int>(i) % kWidth < kEdge ? 4 : 12;
   scene.setConvention({});
-  const Picture step = pictureOf(scene, View::Breaks);
+  const Picture step = pictureOf(scene, DebugView::Breaks);
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {
       CAPTURE(x, y);
@@ -187,7 +187,7 @@ TEST_CASE("the view of breaks shows both sides of a step, near red and far blue"
   CHECK(step.sum().g == 0);
   scene.distances.assign(scene.distances.size(), 4);
   scene.setConvention({});
-  CHECK(isBlack(pictureOf(scene, View::Breaks)));
+  CHECK(isBlack(pictureOf(scene, DebugView::Breaks)));
 }
 
 TEST_CASE("the view of visits shows where the tree is walked, with its scale") {
@@ -195,7 +195,7 @@ TEST_CASE("the view of visits shows where the tree is walked, with its scale") {
     tests::SceneRig scene;
     scene.addLight(LightKind::Directional, casters);
     scene.frame.settings.technique = technique;
-    return pictureOf(scene, View::NodeVisits);
+    return pictureOf(scene, DebugView::NodeVisits);
   };
   const Picture blocks = visits(tests::Casters::Blocks, Technique::Tree);
   CHECK(blocks.rgba == visits(tests::Casters::Blocks, Technique::Epipolar).rgba); // of every pixel's ray
@@ -207,7 +207,7 @@ TEST_CASE("the view of visits shows where the tree is walked, with its scale") {
   tests::ShaftRig rig; // 96 x 64: large enough for the bar
   rig.addLight(tests::shaftLight(LightKind::Directional));
   rig.scene.frame.settings.technique = Technique::Tree;
-  const Picture large = pictureOf(rig.scene, View::NodeVisits);
+  const Picture large = pictureOf(rig.scene, DebugView::NodeVisits);
   CHECK(large.at(48, 4).r > 0.5F); // half-way: 31 visits, red
   CHECK(large.at(86, 4).g > 0.9F); // its end: white
   CHECK(large.at(86, 4).b > 0.7F);
@@ -222,16 +222,16 @@ TEST_CASE("the view of visits is counted: their mean a ray, which the tree makes
       rig.addLight(tests::shaftLight(kind));
       Settings& settings = rig.scene.frame.settings;
       settings.technique = technique;
-      const auto visits = [&](View view) {
+      const auto visits = [&](DebugView view) {
         pictureOf(rig.scene, view);
         return tests::testEffect().statistics().visitsPerRay;
       };
-      const double withTree = visits(View::NodeVisits);
+      const double withTree = visits(DebugView::NodeVisits);
       CHECK(withTree > 0);
-      CHECK(visits(View::Slices) == 0);
-      CHECK(visits(View::Difference) == 0);
+      CHECK(visits(DebugView::Slices) == 0);
+      CHECK(visits(DebugView::Difference) == 0);
       settings.minMaxTree = false;
-      CHECK(visits(View::NodeVisits) > withTree);
+      CHECK(visits(DebugView::NodeVisits) > withTree);
     }
 }
 
@@ -239,7 +239,7 @@ TEST_CASE("the mean of visits is that of the picture") {
   tests::SceneRig scene; // too small for the scale bar
   scene.addLight(LightKind::Directional, tests::Casters::Blocks);
   scene.frame.settings.technique = Technique::Tree;
-  const Picture picture = pictureOf(scene, View::NodeVisits);
+  const Picture picture = pictureOf(scene, DebugView::NodeVisits);
   const double mean = tests::testEffect().statistics().visitsPerRay;
   double sum = 0;
   for (std::size_t i = 0; i < picture.pixels(); ++i)
@@ -251,11 +251,11 @@ TEST_CASE("the view of the difference is grey where nothing differs, else in its
   tests::SceneRig scene = tests::threeLights();
   scene.frame.settings.technique = Technique::Exact;
   const std::vector<double> exact = scene.render().inscatter.rgb;
-  const Picture neutral = pictureOf(scene, View::Difference);
+  const Picture neutral = pictureOf(scene, DebugView::Difference);
   for (std::size_t i = 0; i < neutral.pixels(); ++i)
     REQUIRE(neutral.at(i) == glm::vec3(0.5F));
   scene.frame.settings.technique = Technique::Epipolar;
-  const Picture picture = pictureOf(scene, View::Difference);
+  const Picture picture = pictureOf(scene, DebugView::Difference);
   const std::vector<double> fast = scene.outputs().inscatter.rgb;
   double largest = 0;
   for (std::size_t i = 0; i < picture.pixels(); ++i) {
@@ -280,7 +280,7 @@ TEST_CASE("a view of slices shows the first light that is drawn, and black where
   sun.shadow = {};
   Light black = sun;
   black.colour = {0, 0, 0};
-  for (const View view : {View::Slices, View::Samples, View::NodeVisits}) {
+  for (const DebugView view : {DebugView::Slices, DebugView::Samples, DebugView::NodeVisits}) {
     scene.frame.lights = {point};
     const Picture alone = pictureOf(scene, view);
     CHECK_FALSE(isBlack(alone));
@@ -301,7 +301,7 @@ TEST_CASE("slices of one hue come in sixteens, every second one darker") {
   rig.addLight(tests::shaftLight(LightKind::Directional));
   rig.scene.frame.settings.technique = Technique::Tree;
   rig.scene.frame.settings.slices = 2;
-  const Picture picture = pictureOf(rig.scene, View::Slices);
+  const Picture picture = pictureOf(rig.scene, DebugView::Slices);
   std::size_t bright = 0, dark = 0;
   for (std::size_t i = 0; i < picture.pixels(); ++i) {
     bright += picture.at(i) == glm::vec3(1.0F, 0.2F, 0.2F) ? 1 : 0;

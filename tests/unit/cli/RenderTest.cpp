@@ -171,7 +171,7 @@ TEST_CASE("--view replaces the composite, or says what it needs") {
     CHECK(run("epipolar", view).exitCode == 0);
   const tests::ToolResult refused = run("exact", "slices");
   CHECK(refused.exitCode == 1);
-  CHECK(refused.err.find("settings.view is Slices: needs slices") != std::string::npos);
+  CHECK(refused.err.find("settings.debugView is Slices: needs slices") != std::string::npos);
 }
 
 TEST_CASE("a medium that does nothing leaves the passes skipped and the composite as it was") {
@@ -246,4 +246,31 @@ TEST_CASE("help and version answer on standard output") {
   const tests::ToolResult version = folder.run({"--version"});
   CHECK(version.exitCode == 0);
   CHECK(version.out.find("tyndall-render 0.") == 0);
+}
+
+TEST_CASE("programs are kept in the cache folder unless that is switched off, and the picture is the same") {
+  const tests::ToolFolder folder;
+  const std::string render = "XDG_CACHE_HOME=\"$PWD/caches\" tyndall-render triangle.gltf --sun 0.3,-1,-0.5 "
+                             "--size 33x33 --shadow-size 64 --out ";
+  const auto run = [&](const std::string& options) {
+    const tests::ToolResult result = folder.shell(render + options);
+    CAPTURE(result.err);
+    REQUIRE(result.exitCode == 0);
+  };
+  run("without.exr --no-program-cache");
+  CHECK_FALSE(std::filesystem::exists(folder.path("caches/tyndall")));
+  run("first.exr");
+  CHECK(std::filesystem::is_directory(folder.path("caches/tyndall/programs")));
+  run("second.exr");
+  CHECK(folder.read("first.exr") == folder.read("without.exr"));
+  CHECK(folder.read("second.exr") == folder.read("without.exr"));
+}
+
+TEST_CASE("a cache folder that cannot be made is no reason to stop") {
+  const tests::ToolFolder folder;
+  folder.write("file", "");
+  const tests::ToolResult result = folder.shell(
+      "XDG_CACHE_HOME=\"$PWD/file\" tyndall-render triangle.gltf --sun 0.3,-1,-0.5 --size 33x33 --out a.png");
+  CAPTURE(result.err);
+  CHECK(result.exitCode == 0);
 }

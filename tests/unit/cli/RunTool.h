@@ -29,7 +29,7 @@ public:
   std::string read(const std::string& name) const;
   std::vector<std::string> files() const; ///< the names of all that lies in it, sorted
 
-  /// Runs tyndall-render with this folder as the working directory.
+  /// Runs tyndall-render with this folder as the working directory, and the build's for caches.
   ToolResult run(std::vector<std::string> arguments) const;
 
   /// Runs a shell's command there; all of the project's tools are found by name.

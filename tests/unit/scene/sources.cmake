@@ -14,6 +14,7 @@ set(TYNDALL_UNIT_SCENE_SOURCES
   ${CMAKE_CURRENT_LIST_DIR}/MediumFileTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/NodeTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/OrreryTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/ProgramFilesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SampleFilesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SmokeTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/WrittenScenesTest.cpp)

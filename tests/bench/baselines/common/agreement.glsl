@@ -7,4 +7,4 @@ float agreementOf(float end, float other) {
 }
 
 // Rays beyond this distance add nothing: the sky's and all others are alike there.
-float comparableEnd(float end) { return max(min(end, extinction.w), 1e-20); }
+float comparableEnd(float end) { return max(min(end, visibleEnd), 1e-20); }

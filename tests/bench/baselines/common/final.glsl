@@ -9,6 +9,6 @@ layout(location = 1) out vec4 outTransmittance;
 #endif
 
 void writeFinal(vec3 inscatter, float end) {
-  outInscatter = vec4(min(inscatter, limits.xxx), 0.0);
-  outTransmittance = vec4(exp(-extinction.rgb * end), 1.0);
+  outInscatter = vec4(min(inscatter, vec3(lightCeiling)), 0.0);
+  outTransmittance = vec4(exp(-extinction * end), 1.0);
 }

@@ -21,7 +21,7 @@ struct ViewLine {
 };
 
 ViewLine viewLine(int view, Ray ray) {
-  return ViewLine(texelFromCamera[view] * vec4(ray.origin, 1.0), texelFromCamera[view] * vec4(ray.direction, 0.0));
+  return ViewLine(shadowViews[view].texelFromCamera * vec4(ray.origin, 1.0), shadowViews[view].texelFromCamera * vec4(ray.direction, 0.0));
 }
 
 // Keeps the part of [s0, s1] where c + s d >= 0.
@@ -34,7 +34,7 @@ void keepPositive(float c, float d, inout float s0, inout float s1) {
 // Keeps the part of [s0, s1] inside a view's side planes.
 void clipToSides(ViewLine line, inout float s0, inout float s1) {
   vec4 a = line.origin, b = line.slope;
-  vec2 size = vec2(viewCounts.zw);
+  vec2 size = vec2(shadowMapSize);
   keepPositive(a.x, b.x, s0, s1);
   keepPositive(a.y, b.y, s0, s1);
   keepPositive(size.x * a.w - a.x, size.x * b.w - b.x, s0, s1);
@@ -42,7 +42,7 @@ void clipToSides(ViewLine line, inout float s0, inout float s1) {
 }
 
 Visibility texelVisibility(int view, vec3 p) {
-  ivec2 texel = clamp(ivec2(p.xy), ivec2(0), viewCounts.zw - 1);
+  ivec2 texel = clamp(ivec2(p.xy), ivec2(0), shadowMapSize - 1);
   Visibility visibility = Visibility(p.z <= casterDepth(texel, view) ? 1.0 : 0.0);
 #if GLASS
   visibility *= p.z > paneDepth(texel, view) ? paneTint(texel, view) : vec3(1.0);
@@ -55,19 +55,19 @@ Visibility texelVisibility(int view, vec3 p) {
 Visibility visibilityAt(ViewLine line, Ray ray, float s) {
   vec4 h = line.origin + s * line.slope;
   vec3 p = h.xyz / h.w;
-  return p.z < viewDepth[0].x ? Visibility(1.0) : texelVisibility(0, p);
+  return p.z < shadowViews[0].nearDepth ? Visibility(1.0) : texelVisibility(0, p);
 }
 #else
 // By the first view that holds the point; before all near planes, and outside where that is lit, there is light.
 Visibility visibilityAt(ViewLine line, Ray ray, float s) {
   vec4 position = vec4(ray.origin + s * ray.direction, 1.0);
-  Visibility outside = Visibility(viewCounts.y != 0 ? 1.0 : 0.0);
-  for (int view = 0; view < viewCounts.x; ++view) {
-    vec4 h = texelFromCamera[view] * position;
+  Visibility outside = Visibility(isLitOutside != 0 ? 1.0 : 0.0);
+  for (int view = 0; view < viewCount; ++view) {
+    vec4 h = shadowViews[view].texelFromCamera * position;
     vec3 p = h.xyz / h.w;
-    bool inSides = h.w > 0.0 && all(greaterThanEqual(p.xy, vec2(0.0))) && all(lessThan(p.xy, vec2(viewCounts.zw)));
-    if (!inSides || (viewDepth[view].w == 0.0 && p.z > viewDepth[view].y)) continue;
-    if (p.z >= viewDepth[view].x) return texelVisibility(view, p);
+    bool inSides = h.w > 0.0 && all(greaterThanEqual(p.xy, vec2(0.0))) && all(lessThan(p.xy, vec2(shadowMapSize)));
+    if (!inSides || (shadowViews[view].isOpen == 0 && p.z > shadowViews[view].farDepth)) continue;
+    if (p.z >= shadowViews[view].nearDepth) return texelVisibility(view, p);
     outside = Visibility(1.0);
   }
   return outside;
@@ -120,7 +120,7 @@ Light shadowedSteps(Airlight light, ViewLine line, Ray ray, float s0, float s1, 
 // Inscatter of [0, end] without the light's colour.
 Light steppedLight(Ray ray, float end, int steps, float jitter) {
   Airlight light = airlightOf(ray);
-  float s0 = 0.0, s1 = min(end, extinction.w);
+  float s0 = 0.0, s1 = min(end, visibleEnd);
   litRange(light, s0, s1);
   if (!(s1 > s0)) return Light(0.0);
 #if SHADOW_VIEWS == 0
@@ -131,7 +131,7 @@ Light steppedLight(Ray ray, float end, int steps, float jitter) {
 #if SHADOW_VIEWS == 1
   float from = s0, to = s1;
   clipToSides(line, from, to);
-  if (viewCounts.y != 0) {
+  if (isLitOutside != 0) {
     if (!(to > from)) return Light(airlight(light, s0, s1));
     if (from > s0) sum += Light(airlight(light, s0, from));
     if (to < s1) sum += Light(airlight(light, to, s1));

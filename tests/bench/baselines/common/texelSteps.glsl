@@ -2,7 +2,7 @@
 Light texelSteppedLight(Ray ray, float end) {
 #if SHADOW_VIEWS == 1
   ViewLine line = viewLine(0, ray);
-  float from = 0.0, to = min(end, extinction.w);
+  float from = 0.0, to = min(end, visibleEnd);
   clipToSides(line, from, to);
   vec4 a = line.origin + from * line.slope, b = line.origin + max(from, to) * line.slope;
   vec2 extent = abs(b.xy / b.w - a.xy / a.w);

@@ -1,0 +1,107 @@
+// The public functions of an effect, and what it makes once.
+#include "EffectState.h"
+#include "LoadFunctions.h"
+#include "gl/StateGuard.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tyndall {
+
+Effect::Effect(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Effect::~Effect() = default;
+
+CreateResult Effect::create(const Config& config) {
+  const auto invalid = [](const std::string& message) { return Status{StatusCode::InvalidConfig, message}; };
+  const auto outside = [&](const char* field, int value) {
+    return invalid(std::string("Config::") + field + " is " + std::to_string(value) +
+                   ": must be one of the enumerators");
+  };
+  if (!config.loader) return {nullptr, invalid("Config::loader is null: a function that resolves GL names is needed")};
+  if (config.timing < PassTiming::Off || config.timing > PassTiming::Finish)
+    return {nullptr, outside("timing", static_cast<int>(config.timing))};
+  if (config.state < StateMode::Restore || config.state > StateMode::Leave)
+    return {nullptr, outside("state", static_cast<int>(config.state))};
+  auto state = std::make_unique<State>(config);
+  if (Status s = loadFunctions(state->gl, config.loader, 33, {}); !s) return {nullptr, s};
+  state->createObjects();
+  if (Status s = state->watch.finish({}); !s) return {nullptr, s};
+  return {std::unique_ptr<Effect>(new Effect(std::move(state))), {}};
+}
+
+Status Effect::render(const Frame& frame) {
+  State& state = *state_;
+  if (Status s = state.check("Effect::render"); !s) return s;
+  return state.watch.finish(state.render(frame));
+}
+
+PrepareStatus Effect::prepare(const Frame& frame) {
+  State& state = *state_;
+  if (Status s = state.check("Effect::prepare"); !s) return {s};
+  PrepareStatus status = state.prepare(frame);
+  status.status = state.watch.finish(status.status);
+  return status;
+}
+
+Status Effect::compileAll() {
+  State& state = *state_;
+  if (Status s = state.check("Effect::compileAll"); !s) return s;
+  return state.watch.finish(state.compileAll());
+}
+
+Statistics Effect::statistics() {
+  State& state = *state_;
+  KeptEye* const eye = state.lastEye ? state.eyes.find(*state.lastEye) : nullptr;
+  return {state.recorder.collect(),
+          state.targets.bytes() + state.eyes.bytes() + state.objectBoxes.bytes() + state.blocks.bytes(),
+          state.programs.size(),
+          state.recorder.fixupPixels(),
+          state.recorder.marched(),
+          eye ? eye->counts.lastShare() : 1,
+          state.visitsPerRay()};
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+void Effect::State::createObjects() {
+  const gl::StateGuard guard(gl, StateMode::Restore);
+  watch.mark();
+  gl.GetIntegerv(gl::MAX_TEXTURE_SIZE, &limits.textureSize);
+  gl.GetIntegerv(gl::UNIFORM_BUFFER_OFFSET_ALIGNMENT, &limits.blockAlignment);
+  limits.blockAlignment = std::max(limits.blockAlignment, 16);
+  vertexArray = gl::VertexArray(gl);
+  gl.BindVertexArray(vertexArray.name()); // a name becomes an object when it is first bound
+  nearestSampler = gl::Sampler(gl);
+  for (const gl::Enum filter : {gl::TEXTURE_MIN_FILTER, gl::TEXTURE_MAG_FILTER})
+    gl.SamplerParameteri(nearestSampler.name(), filter, gl::NEAREST);
+  for (const gl::Enum wrap : {gl::TEXTURE_WRAP_S, gl::TEXTURE_WRAP_T})
+    gl.SamplerParameteri(nearestSampler.name(), wrap, gl::CLAMP_TO_EDGE);
+  gl.SamplerParameteri(nearestSampler.name(), gl::TEXTURE_COMPARE_MODE, gl::NONE);
+}
+
+Status Effect::State::check(const char* function) {
+  if (Status s = watch.check(); !s) return s;
+  return checkFeedback(gl, function);
+}
+
+// Waits for the GPU, which who asks for statistics may.
+double Effect::State::visitsPerRay() const {
+  if (visits == 0) return 0;
+  const gl::StateGuard guard(gl, StateMode::Restore);
+  const gl::PackGuard packing(gl, StateMode::Restore);
+  gl::Float mean = 0;
+  gl.ActiveTexture(gl::TEXTURE0);
+  gl.BindTexture(gl::TEXTURE_2D, visits);
+  gl.GetTexImage(gl::TEXTURE_2D, 0, gl::RED, gl::FLOAT, &mean);
+  return mean;
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+Mat4 mat4(const float* columnMajor) {
+  Mat4 m{};
+  std::copy(columnMajor, columnMajor + 16, m.begin());
+  return m;
+}
+
+} // namespace tyndall

@@ -1,0 +1,19 @@
+#include "avsm/Programs.h"
+
+#include "avsm/Curves.h"
+
+namespace tyndall::avsm {
+
+std::vector<gl::Variant> allVariants() {
+  std::vector<gl::Variant> all;
+  for (const int exits : {0, 1})
+    all.push_back({"passes/avsmSort.comp", {{"EXITS", exits}}, {}});
+  all.push_back({"passes/avsmEmpty.comp", {}, {}});
+  for (const char* pass : {"passes/avsmInsert.comp", "passes/avsmParticles.comp", "passes/avsmReduce.comp"})
+    for (int nodes = 4; nodes <= kMaxNodes; nodes += 4)
+      for (const bool packed : {false, true})
+        all.push_back({pass, curveDefinitions(nodes, packed), {}});
+  return all;
+}
+
+} // namespace tyndall::avsm

@@ -1,0 +1,251 @@
+#include "plan/DrawPlan.h"
+
+#include "gl/StateGuard.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tyndall {
+
+namespace {
+
+// What a sampler reads, as the pass has it.
+const gl::Uint* textureFor(const Draw& draw, const std::string& sampler) {
+  const auto found = std::find_if(draw.reads.begin(), draw.reads.end(),
+                                  [&](const NamedTexture& read) { return read.first == sampler; });
+  return found == draw.reads.end() ? nullptr : &found->second;
+}
+
+Status resolve(Draw& draw, gl::ProgramCache& programs) {
+  const gl::Program* program = programs.find(draw.variant);
+  if (!program) return {StatusCode::ShaderError, "a shader did not build: " + programs.error()};
+  draw.program = program->name();
+  draw.textures.clear();
+  for (const gl::Program::Sampler& sampler : program->samplers()) {
+    const gl::Uint* texture = textureFor(draw, sampler.name);
+    if (!texture)
+      return {StatusCode::ShaderError,
+              "a defect of Tyndall: the row of \"" + draw.title + "\" does not say that it reads " + sampler.name};
+    draw.textures.push_back({sampler.unit, sampler.target, *texture});
+  }
+  return {};
+}
+
+template <typename Function>
+void forEachDraw(const FramePlan& plan, Function&& function) {
+  for (const Step& step : plan.steps)
+    if (const Draw* draw = std::get_if<Draw>(&step)) function(*draw);
+}
+
+// Sets GL state for one draw after the other, of what has changed only.
+class Drawer {
+public:
+  Drawer(const gl::Functions& gl, const DrawObjects& objects, PassRecorder& recorder)
+      : gl_(gl), objects_(objects), recorder_(recorder) {}
+
+  void begin();
+  void operator()(const Upload& upload);
+  void operator()(const Clear& clear);
+  void operator()(const Draw& draw);
+  void operator()(const Skip& skip) { recorder_.skip(skip.pass, skip.why); }
+  void end();
+
+private:
+  struct Bound {
+    gl::Enum target = 0;
+    gl::Uint texture = 0;
+  };
+  void activate(gl::Uint unit);
+  void bind(const Draw::Reading& reading);
+  void bind(const std::vector<Draw::Reading>& readings);
+  void bindFramebuffer(gl::Uint framebuffer);
+  void bindBlocks(const Draw& draw);
+  void setBlend(Blend blend);
+  void setStencil(Stencil stencil);
+  void setViewport(const Viewport& viewport);
+
+  const gl::Functions& gl_;
+  const DrawObjects& objects_;
+  PassRecorder& recorder_;
+  std::array<int, 3> blocks_ = {-1, -1, -1};
+  std::vector<Bound> units_;
+  std::vector<gl::Uint> samplers_; // of the units; 0: none, or the engine's
+  gl::Uint active_ = 0, program_ = 0, framebuffer_ = 0;
+  Blend blend_ = Blend::Replace;
+  Stencil stencil_ = Stencil::Off;
+  Viewport viewport_{-1, -1, -1, -1};
+};
+
+void Drawer::begin() {
+  gl_.BindVertexArray(objects_.vertexArray);
+  gl_.ActiveTexture(gl::TEXTURE0);
+}
+
+void Drawer::end() {
+  setBlend(Blend::Replace);
+  setStencil(Stencil::Off);
+}
+
+void Drawer::operator()(const Upload& upload) {
+  bind({0, gl::TEXTURE_2D, upload.texture});
+  activate(0);
+  gl_.TexSubImage2D(gl::TEXTURE_2D, 0, 0, 0, upload.width, upload.height, gl::RGBA, gl::FLOAT, upload.texels.data());
+}
+
+void Drawer::operator()(const Clear& clear) {
+  bindFramebuffer(clear.framebuffer);
+  if (clear.stencil) {
+    const gl::Int zero = 0;
+    gl_.StencilMask(0xFF);
+    gl_.ClearBufferiv(gl::STENCIL, 0, &zero);
+  } else {
+    gl_.ClearBufferfv(gl::COLOR, 0, &clear.colour.x);
+  }
+}
+
+void Drawer::operator()(const Draw& draw) {
+  if (draw.program != program_) gl_.UseProgram(program_ = draw.program);
+  bind(draw.textures);
+  bindFramebuffer(draw.framebuffer);
+  bindBlocks(draw);
+  setViewport(draw.viewport);
+  setBlend(draw.blend);
+  setStencil(draw.stencil);
+  const auto drawArrays = [&] {
+    if (draw.instances == 1)
+      gl_.DrawArrays(gl::TRIANGLES, draw.firstVertex, draw.vertices);
+    else
+      gl_.DrawArraysInstanced(gl::TRIANGLES, draw.firstVertex, draw.vertices, draw.instances);
+    return true;
+  };
+  recorder_.run(draw.title, drawArrays, draw.counting);
+}
+
+void Drawer::activate(gl::Uint unit) {
+  if (active_ != unit) gl_.ActiveTexture(gl::TEXTURE0 + unit);
+  active_ = unit;
+}
+
+// A multisampled texture takes no sampler.
+void Drawer::bind(const Draw::Reading& reading) {
+  units_.resize(std::max<std::size_t>(units_.size(), reading.unit + 1));
+  samplers_.resize(std::max<std::size_t>(samplers_.size(), reading.unit + 1), 0);
+  Bound& bound = units_[reading.unit];
+  if (bound.target == reading.target && bound.texture == reading.texture) return;
+  activate(reading.unit);
+  gl_.BindTexture(reading.target, reading.texture);
+  const gl::Uint sampler = reading.target == gl::TEXTURE_2D_MULTISAMPLE ? 0 : objects_.nearestSampler;
+  if (bound.target == 0 || samplers_[reading.unit] != sampler) gl_.BindSampler(reading.unit, sampler);
+  samplers_[reading.unit] = sampler;
+  bound = {reading.target, reading.texture};
+}
+
+// All at once where GL can (4.4). That would take textures of every kind from a unit that gets none: a plain sampler
+// that reads nothing gets a texture of one texel, others are seen to by themselves.
+void Drawer::bind(const std::vector<Draw::Reading>& readings) {
+  std::vector<gl::Uint> textures, samplers;
+  bool atOnce = gl_.BindTextures && gl_.BindSamplers, bound = readings.size() <= units_.size();
+  for (std::size_t i = 0; i < readings.size(); ++i) { // whose units are 0, 1, 2, ...
+    const Draw::Reading& reading = readings[i];
+    const bool isPlain = reading.target == gl::TEXTURE_2D;
+    textures.push_back(reading.texture || !isPlain ? reading.texture : objects_.emptyTexture);
+    samplers.push_back(reading.target == gl::TEXTURE_2D_MULTISAMPLE ? 0 : objects_.nearestSampler);
+    atOnce = atOnce && textures.back() != 0;
+    bound = bound && units_[i].target == reading.target && units_[i].texture == textures[i];
+  }
+  if (bound) return;
+  if (!atOnce) {
+    for (std::size_t i = 0; i < readings.size(); ++i)
+      bind({readings[i].unit, readings[i].target, textures[i]});
+    return;
+  }
+  const auto count = static_cast<gl::Sizei>(readings.size());
+  gl_.BindTextures(0, count, textures.data());
+  units_.resize(std::max(units_.size(), readings.size()));
+  samplers_.resize(std::max(samplers_.size(), samplers.size()), 0);
+  for (std::size_t i = 0; i < readings.size(); ++i)
+    units_[i] = {readings[i].target, textures[i]};
+  if (std::equal(samplers.begin(), samplers.end(), samplers_.begin())) return;
+  gl_.BindSamplers(0, count, samplers.data());
+  std::copy(samplers.begin(), samplers.end(), samplers_.begin());
+}
+
+void Drawer::bindFramebuffer(gl::Uint framebuffer) {
+  if (framebuffer != framebuffer_) gl_.BindFramebuffer(gl::DRAW_FRAMEBUFFER, framebuffer);
+  framebuffer_ = framebuffer;
+}
+
+void Drawer::bindBlocks(const Draw& draw) {
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    if (draw.blocks[i] == blocks_[i]) continue;
+    blocks_[i] = draw.blocks[i];
+    objects_.blocks.bind(static_cast<gl::Uint>(i), draw.blocks[i]);
+  }
+}
+
+void Drawer::setBlend(Blend blend) {
+  if (blend == blend_) return;
+  if (blend_ == Blend::Colour || blend == Blend::Colour) gl_.ColorMaski(0, 1, 1, 1, blend != Blend::Colour);
+  const auto blends = [](Blend b) { return b != Blend::Replace && b != Blend::Colour; };
+  const gl::Enum alpha = blend == Blend::AddAll ? gl::ONE : gl::ZERO;
+  if (blends(blend))
+    gl::setBlending(gl_, gl::kDrawBuffers, true,
+                    {gl::ONE, blend == Blend::DualSource ? gl::SRC1_COLOR : gl::ONE, alpha, gl::ONE});
+  else if (blends(blend_))
+    gl::setBlending(gl_, gl::kDrawBuffers, false);
+  blend_ = blend;
+}
+
+void Drawer::setStencil(Stencil stencil) {
+  if (stencil == stencil_) return;
+  stencil_ = stencil;
+  if (stencil == Stencil::Off) return gl_.Disable(gl::STENCIL_TEST);
+  const bool marks = stencil == Stencil::MarkServed;
+  gl_.Enable(gl::STENCIL_TEST);
+  gl_.StencilMask(marks ? 0xFF : 0); // what writes none may be tested before it is shaded
+  gl_.StencilFunc(marks ? gl::ALWAYS : gl::EQUAL, marks ? 1 : 0, 0xFF);
+  gl_.StencilOp(gl::KEEP, gl::KEEP, marks ? gl::REPLACE : gl::KEEP);
+}
+
+void Drawer::setViewport(const Viewport& v) {
+  if (v.x == viewport_.x && v.y == viewport_.y && v.width == viewport_.width && v.height == viewport_.height) return;
+  gl::setViewport(gl_, v.x, v.y, v.width, v.height);
+  viewport_ = v;
+}
+
+} // namespace
+
+void requestPrograms(const FramePlan& plan, gl::ProgramCache& programs) {
+  forEachDraw(plan, [&](const Draw& draw) { programs.request(draw.variant); });
+}
+
+Status resolvePrograms(FramePlan& plan, gl::ProgramCache& programs) {
+  for (Step& step : plan.steps)
+    if (Draw* draw = std::get_if<Draw>(&step))
+      if (Status s = resolve(*draw, programs); !s) return s;
+  return {};
+}
+
+UnitsUsed unitsOf(const FramePlan& plan) {
+  UnitsUsed used;
+  used.count = 1; // tables are uploaded through the first
+  forEachDraw(plan, [&](const Draw& draw) {
+    used.stencil = used.stencil || draw.stencil != Stencil::Off;
+    for (const Draw::Reading& reading : draw.textures) {
+      used.count = std::max(used.count, static_cast<int>(reading.unit) + 1);
+      used.arrays = used.arrays || reading.target == gl::TEXTURE_2D_ARRAY;
+      used.multisampled = used.multisampled || reading.target == gl::TEXTURE_2D_MULTISAMPLE;
+    }
+  });
+  return used;
+}
+
+void drawPlan(const FramePlan& plan, const gl::Functions& gl, const DrawObjects& objects, PassRecorder& recorder) {
+  Drawer drawer(gl, objects, recorder);
+  drawer.begin();
+  for (const Step& step : plan.steps)
+    std::visit(drawer, step);
+  drawer.end();
+}
+
+} // namespace tyndall

@@ -1,0 +1,35 @@
+// Carries a plan out. Nothing in it can fail but by a lost context; nothing waits.
+#pragma once
+
+#include "PassRecorder.h"
+#include "gl/ProgramCache.h"
+#include "plan/BlockBuffers.h"
+#include "plan/FramePlan.h"
+
+namespace tyndall {
+
+/// What all draws share.
+struct DrawObjects {
+  gl::Uint vertexArray = 0;
+  gl::Uint nearestSampler = 0; ///< nearest, clamped, compare mode off: engine textures keep their own parameters
+  gl::Uint emptyTexture = 0;   ///< what a sampler reads that has nothing to read
+  const BlockBuffers& blocks;  ///< the plan's
+};
+
+/// Texture units and targets that a plan's programs read.
+struct UnitsUsed {
+  int count = 0;
+  bool arrays = false, multisampled = false, stencil = false;
+};
+
+/// Starts to build the plan's programs.
+void requestPrograms(const FramePlan& plan, gl::ProgramCache& programs);
+
+/// Has every draw know its program and where its textures go; ShaderError if a program does not build.
+Status resolvePrograms(FramePlan& plan, gl::ProgramCache& programs);
+
+UnitsUsed unitsOf(const FramePlan& plan);
+
+void drawPlan(const FramePlan& plan, const gl::Functions& gl, const DrawObjects& objects, PassRecorder& recorder);
+
+} // namespace tyndall

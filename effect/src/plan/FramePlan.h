@@ -1,0 +1,111 @@
+// What a frame draws, as plain data: made by planFrame() before the first GL draw, carried out by drawPlan().
+#pragma once
+
+#include "PassRecorder.h"
+#include "SharedBlocks.h"
+#include "gl/Variant.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <glm/glm.hpp>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace tyndall {
+
+/// How a draw's colour outputs join what is in the target.
+enum class Blend {
+  Replace,    ///< overwrite
+  Add,        ///< target + source 0 (rgb); alpha stays
+  AddAll,     ///< target + source 0, alpha too
+  DualSource, ///< target * source 1 + source 0 (rgb); alpha stays
+  Colour,     ///< overwrite rgb; alpha stays
+};
+
+enum class Stencil {
+  Off,
+  MarkServed,   ///< 1 where a fragment is written
+  OnlyUnserved, ///< only where it is 0
+};
+
+struct Viewport {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// Texels of the CPU's for a texture of our own.
+struct Upload {
+  gl::Uint texture = 0;
+  int width = 0, height = 0;
+  std::vector<glm::vec4> texels;
+};
+
+struct Clear {
+  gl::Uint framebuffer = 0;
+  bool stencil = false; ///< to 0; else the first colour, to:
+  glm::vec4 colour{0};
+};
+
+/// A texture by the sampler that reads it.
+using NamedTexture = std::pair<std::string, gl::Uint>;
+
+struct Draw {
+  std::string title;
+  gl::Variant variant;
+  std::vector<NamedTexture> reads;
+  gl::Uint framebuffer = 0;
+  Viewport viewport;
+  Blend blend = Blend::Replace;
+  Stencil stencil = Stencil::Off;
+  Counting counting;
+  int firstVertex = 0, vertices = 3, instances = 1;
+  std::array<int, 3> blocks{}; ///< frame, light, epipolar: index of the block; 0: none
+  // Once the program is built:
+  gl::Uint program = 0;
+  struct Reading {
+    gl::Uint unit;
+    gl::Enum target;
+    gl::Uint texture;
+  };
+  std::vector<Reading> textures;
+};
+
+/// A pass that is not drawn, and why.
+struct Skip {
+  std::string pass, why;
+};
+
+using Step = std::variant<Upload, Clear, Draw, Skip>;
+
+inline constexpr std::size_t kLargestBlock =
+    std::max({sizeof(blocks::FrameBlock), sizeof(blocks::LightBlock), sizeof(blocks::EpipolarBlock)});
+
+struct FramePlan {
+  std::vector<Step> steps;
+  /// Uniform blocks; the first stands for those that a draw does not read, since GL wants all of a program's bound.
+  std::vector<std::vector<std::uint8_t>> blocks{std::vector<std::uint8_t>(kLargestBlock)};
+  std::uint64_t marched = 0; ///< rays that need no counting
+
+  void skip(std::string pass, std::string why) { steps.emplace_back(Skip{std::move(pass), std::move(why)}); }
+
+  /// The block that add() gave that index for.
+  template <typename Block>
+  Block block(int index) const {
+    Block value;
+    std::memcpy(&value, blocks.at(static_cast<std::size_t>(index)).data(), sizeof value);
+    return value;
+  }
+
+  /// Index of the block.
+  template <typename Block>
+  int add(const Block& block) {
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(&block);
+    blocks.emplace_back(bytes, bytes + sizeof block);
+    return static_cast<int>(blocks.size()) - 1;
+  }
+};
+
+} // namespace tyndall

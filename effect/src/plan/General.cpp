@@ -1,0 +1,119 @@
+#include "plan/General.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <string_view>
+
+namespace tyndall {
+
+namespace {
+
+// Definitions by name; one that is not there is 0, and stays away.
+class Values {
+public:
+  explicit Values(gl::Definitions& definitions) : definitions_(definitions) {}
+  int operator[](std::string_view name) const {
+    const auto found = find(name);
+    return found == definitions_.end() ? 0 : found->second;
+  }
+  void set(std::string_view name, int value) {
+    if (const auto found = find(name); found != definitions_.end()) found->second = value;
+  }
+
+private:
+  gl::Definitions::iterator find(std::string_view name) const {
+    return std::find_if(definitions_.begin(), definitions_.end(), [&](const auto& d) { return d.first == name; });
+  }
+  gl::Definitions& definitions_;
+};
+
+bool isOneOf(std::string_view fragment, std::initializer_list<std::string_view> names) {
+  return std::any_of(names.begin(), names.end(),
+                     [&](std::string_view name) { return fragment == "passes/" + std::string(name) + ".frag"; });
+}
+
+// Maps are read texel by texel, or where rows leave it open; else rows hold all.
+bool readsMaps(std::string_view fragment, const Values& values) {
+  if (values["SHADOW_VIEWS"] == 0) return false;
+  if (isOneOf(fragment, {"exact", "fixup", "rowDepths", "tintGroups"})) return true;
+  return values["FILTER_BILINEAR"] != 0 || values["GLASS"] != 0;
+}
+
+// Two or three of filter, glass and smoke together.
+bool isMixture(const Values& values) { return values["FILTER_BILINEAR"] + values["GLASS"] + values["CURVES"] > 1; }
+
+// But a sun through glass and grey smoke is what one renders: its rays are marched by programs of their own.
+bool isOfSunbeams(std::string_view fragment, const Values& values) {
+  return values["LIGHT_KIND"] == 0 && values["FILTER_BILINEAR"] == 0 && values["MONOCHROME"] != 0 &&
+         isOneOf(fragment, {"march", "marchExtra"});
+}
+
+// Lights without a map, low rank, the debug view of visits, pixels marched between slices, and mixtures.
+bool isSeldom(std::string_view fragment, const Values& values) {
+  if (!isOneOf(fragment, {"exact", "fixup", "march", "marchExtra", "pixelTree"})) return values["ROW_HASHES"] != 0;
+  if (values["SHADOW_VIEWS"] == 0) return true;
+  return isOneOf(fragment, {"fixup"}) || values["LOW_RANK"] != 0 || values["COUNT_VISITS"] != 0 ||
+         (isMixture(values) && !isOfSunbeams(fragment, values));
+}
+
+// One view of an array may be the first of several: always where that costs little or is seldom asked for. A point
+// light's only view, which is seldom alone, is a spot's with an open cone.
+bool takesSeveral(std::string_view fragment, const Values& values) {
+  return values["LIGHT_KIND"] == 1 || isSeldom(fragment, values) || isOneOf(fragment, {"tintGroups"});
+}
+
+// A texture of one layer has one view.
+void chooseMaps(std::string_view fragment, Values values) {
+  if (values["SHADOW_VIEWS"] == 0) return;
+  const bool several = values["SHADOW_VIEWS"] == 2 || takesSeveral(fragment, values);
+  if (!readsMaps(fragment, values)) {
+    values.set("SHADOW_ARRAY", 0);
+    if (several) values.set("SHADOW_VIEWS", 2);
+    return;
+  }
+  if (values["SHADOW_ARRAY"] != 0 && several) values.set("SHADOW_VIEWS", 2);
+  if (values["SHADOW_ARRAY"] == 0 && values["LIGHT_KIND"] == 1) values.set("LIGHT_KIND", 2);
+}
+
+} // namespace
+
+gl::Definitions general(const std::string& fragment, gl::Definitions definitions) {
+  Values values(definitions);
+  if (values["COUNT_VISITS"] != 0) { // which depend neither on the medium nor on smoke
+    values.set("MONOCHROME", 1);
+    values.set("CURVES", 0);
+  }
+  // A point light is a spot with an open cone: to low rank, which has the cone in its factors, and where it is seldom.
+  if (isSeldom(fragment, values) && values["LIGHT_KIND"] == 1) values.set("LIGHT_KIND", 2);
+  if (isOneOf(fragment, {"exact", "fixup", "march", "marchExtra", "pixelTree", "rowDepths", "tintGroups"}))
+    chooseMaps(fragment, values);
+  if (isMixture(values) && !isOfSunbeams(fragment, values)) values.set("MONOCHROME", 0);
+  // Where light only changes its measure all lamps are alike.
+  if (isOneOf(fragment, {"interpolate", "meanLight", "unwarp", "tintGroups"}) && values["LIGHT_KIND"] == 2)
+    values.set("LIGHT_KIND", 1);
+  // Epipolar textures hold one channel, or three.
+  if (isOneOf(fragment, {"interpolate", "meanLight", "unwarp"}) && values["GLASS"] != 0) {
+    values.set("GLASS", 0);
+    values.set("MONOCHROME", 0);
+  }
+  if (values["MEAN_OF"] == 2)
+    for (const char* name : {"LIGHT_KIND", "GLASS", "MONOCHROME"})
+      values.set(name, 0);
+  // Rows that hold splits, by the filter or by glass.
+  if (isOneOf(fragment, {"pairTree", "changedParts"}) && values["GLASS"] != 0) {
+    values.set("GLASS", 0);
+    values.set("FILTER_BILINEAR", 1);
+  }
+  if (isOneOf(fragment, {"rowNodes"}) && values["GLASS"] != 0) values.set("FILTER_BILINEAR", 0);
+  // Several views where one costs nothing more.
+  if (isOneOf(fragment,
+              {"pairTree", "changedParts", "changedSegments", "changedSlices", "curveCells", "rowNodes", "rowTree"}) &&
+      values["SHADOW_VIEWS"] < 2)
+    values.set("SHADOW_VIEWS", 2);
+  // What is written is light, whatever epipolar textures hold: grey media save most where most is marched.
+  if (isOneOf(fragment, {"fixup", "tintGroups"}) || (fragment == "passes/pixelTree.frag" && values["LOW_RANK"] != 0))
+    values.set("MONOCHROME", 0);
+  return definitions;
+}
+
+} // namespace tyndall

@@ -1,0 +1,111 @@
+#include "plan/LightPlanner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tyndall {
+
+LightPlanner::LightPlanner(const PassPlanner& planner, const Frame& lit, const DrawnLight& drawn,
+                           const FrameTextures& textures)
+    : PassPlanner(planner), frame(lit), light(frame.lights[drawn.index]) {
+  const FrameTextures::Shadow& map = textures.shadows[drawn.index];
+  name = drawn.name;
+  variant = drawn.variant;
+  lightBlock = plan.add(drawn.block);
+  extent.coloured = variant.isColoured();
+  extent.glass = variant.glass;
+  extent.shares = variant.hasShares();
+  extent.curveCells = map.curvesSize;
+  extent.terms = frame.settings.lowRankTerms;
+  board[Resource::ShadowMap] = light.shadow.texture;
+  board[Resource::GlassColour] = light.glass.colour;
+  board[Resource::GlassDepth] = light.glass.depth;
+  board[Resource::Curves] = light.curves.texture;
+  mapSize_ = {map.width, map.height};
+  if (variant.shadowViews > 0) shadowViews_ = static_cast<int>(light.shadow.views.size());
+}
+
+void LightPlanner::makeSlices(const Limits& limits) {
+  const Settings& settings = frame.settings;
+  geometry = optics::makeSlices(frame, light, mapSize_.width, mapSize_.height);
+  regularSamples = geometry.regularSamples;
+  block = geometry.block;
+  block.breakThreshold = settings.breakThreshold;
+  block.endThreshold = std::log2(1 + settings.breakThreshold);
+  block.bendThreshold = settings.bendThreshold;
+  block.leastWeight = settings.leastWeight;
+  block.spreadThreshold = settings.spreadThreshold;
+  block.averageThreshold = settings.averageThreshold;
+  extent.slices = geometry.slices;
+  extent.tableRows = geometry.rows;
+  extent.samples = settings.samples;
+  chooseRow(geometry.longestRow);
+  viewsPerDraw = chooseViewsPerDraw(limits);
+  extent.rowRoom = extent.slices * viewsPerDraw;
+  extent.floatRows = block.rowCodeSteps == 0;
+  upload(Resource::SliceTable, geometry.texels);
+}
+
+// Texels of a row and levels of its tree: the coarsest level keeps at least one node of each row, and four if it can.
+// Textures have room for the longest row that the map allows; drawn are as many texels as this frame's longest has.
+void LightPlanner::chooseRow(int longestRow) {
+  const int step = frame.settings.rowStep;
+  const int texels = (std::max({mapSize_.width, mapSize_.height, 1}) + step - 1) / step;
+  int top = 2;
+  while ((texels >> (2 * (top + 1))) >= 4)
+    ++top;
+  const int unit = 1 << (2 * top);
+  extent.rowTexels = (texels + unit - 1) / unit * unit;
+  extent.drawnTexels = std::clamp((longestRow + unit - 1) / unit * unit, unit, extent.rowTexels);
+  extent.treeLevels = frame.settings.minMaxTree ? top : 0;
+  block.rowLength = extent.drawnTexels;
+  block.treeLevels = extent.treeLevels;
+}
+
+// Shadow views whose rows stand above one another in the row textures: all of a light's, so that rows are made once and
+// rays marched once; in equal parts where that would be too much, as for the six large faces of a lamp.
+int LightPlanner::chooseViewsPerDraw(const Limits& limits) const {
+  constexpr std::int64_t kMostTexels = std::int64_t{24} << 20; // of all rows; 4 to 10 bytes each, with the tree
+  const int all = std::max(views(), 1);
+  const std::int64_t most = std::min<std::int64_t>(kMostTexels / extent.rowTexels, limits.textureSize) / extent.slices;
+  const int together = static_cast<int>(std::clamp<std::int64_t>(most, 1, all));
+  const int parts = (all + together - 1) / together;
+  return (all + parts - 1) / parts;
+}
+
+void LightPlanner::selectDraw(int draw) {
+  block.firstView = draw * viewsPerDraw;
+  block.drawnViews = std::min(viewsPerDraw, views() - block.firstView);
+  block.bringsOutside = draw == 0 ? 1 : 0;
+  extent.rows = extent.slices * block.drawnViews;
+  drawIndex = draw;
+  epipolarBlock = plan.add(block);
+}
+
+void LightPlanner::upload(Resource resource, std::vector<glm::vec4> texels) {
+  const Size size = rowOf(resource).size(extent);
+  board[resource] = textureOf(resource);
+  plan.steps.emplace_back(Upload{board[resource], size.width, size.height, std::move(texels)});
+}
+
+// What the next frame needs is the light's own. Rows that do not stand in one texture are made anew.
+Targets& LightPlanner::holderOf(Lifetime lifetime) {
+  if (!keptTargets) return PassPlanner::holderOf(lifetime);
+  switch (lifetime) {
+  case Lifetime::Light:
+  case Lifetime::Compared:
+    return *keptTargets;
+  case Lifetime::LightRows:
+  case Lifetime::ComparedRows:
+    return draws() == 1 ? *keptTargets : frameTargets;
+  default:
+    return PassPlanner::holderOf(lifetime);
+  }
+}
+
+int LightPlanner::sideOf(Lifetime lifetime) const {
+  return lifetime == Lifetime::Compared ? endsSide : lifetime == Lifetime::ComparedRows ? rowsSide : 0;
+}
+
+} // namespace tyndall

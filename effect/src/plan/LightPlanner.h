@@ -1,0 +1,70 @@
+// A light that goes through the passes of slices and rows: its geometry, and which of its shadow views are at hand.
+#pragma once
+
+#include "CheckFrame.h"
+#include "SharedBlocks.h"
+#include "optics/Slices.h"
+#include "plan/PassPlanner.h"
+
+#include <cstdint>
+
+namespace tyndall {
+
+/// A light that adds something, with the settings that it was dealt.
+struct DrawnLight {
+  std::size_t index = 0;
+  std::string name;
+  Settings settings;
+  blocks::LightBlock block;
+  LightVariant variant;
+};
+
+/// What GL allows.
+struct Limits {
+  int textureSize = 0;      ///< texels per side
+  int blockAlignment = 256; ///< bytes, of a uniform block in a buffer
+};
+
+class LightPlanner : public PassPlanner {
+public:
+  /// `frame` has the light's own settings.
+  LightPlanner(const PassPlanner& planner, const Frame& frame, const DrawnLight& light, const FrameTextures& textures);
+
+  /// Slices of the light in the image and in its shadow map, on the CPU (Yusov 2013, "Generating epipolar lines").
+  void makeSlices(const Limits& limits);
+
+  /// Has a texture of ours filled by the CPU.
+  void upload(Resource resource, std::vector<glm::vec4> texels);
+
+  /// Shadow views of the light; 0 without a shadow map.
+  int views() const { return shadowViews_; }
+  /// Draws that march it: as few as row textures of bounded size allow, and at least one, which brings the light that
+  /// is outside all views.
+  int draws() const { return views() > 0 ? (views() + viewsPerDraw - 1) / viewsPerDraw : 1; }
+  void selectDraw(int draw);
+  int segments() const { return extent.slices * extent.samples / 16; }
+
+  const Frame frame;
+  const Light& light;
+  optics::SliceTable geometry; ///< on the CPU
+  blocks::EpipolarBlock block{};
+  int viewsPerDraw = 1;             ///< shadow views whose rows are at hand together
+  std::uint64_t regularSamples = 0; ///< march samples that every slice has, over all slices
+
+  /// Temporal reuse: where textures are kept, and on which of two sides this frame makes what it compares.
+  Targets* keptTargets = nullptr;
+  int endsSide = 0, rowsSide = 0;
+
+protected:
+  Targets& holderOf(Lifetime lifetime) override;
+  int sideOf(Lifetime lifetime) const override;
+
+private:
+  void chooseRow(int longestRow);
+  int chooseViewsPerDraw(const Limits& limits) const;
+
+  int shadowViews_ = 0;
+  Size mapSize_; // of the shadow map
+};
+
+} // namespace tyndall

@@ -1,0 +1,50 @@
+#include "plan/LightVariant.h"
+
+namespace tyndall {
+
+gl::Definitions definitionsOf(const LightVariant& v) {
+  return {{"LIGHT_KIND", v.lightKind},
+          {"SHADOW_VIEWS", v.shadowViews},
+          {"SHADOW_ARRAY", v.shadowArray},
+          {"FILTER_BILINEAR", v.bilinear},
+          {"GLASS", v.glass},
+          {"CURVES", v.curves},
+          {"MONOCHROME", v.monochrome},
+          {"COMPOSITE", v.composite}};
+}
+
+LightVariant served(LightVariant variant) {
+  const int kinds = (variant.bilinear ? 1 : 0) + (variant.glass ? 1 : 0) + (variant.curves ? 1 : 0);
+  const bool isSunThroughGlass = variant.lightKind == 0 && !variant.bilinear; // and smoke
+  if (variant.shadowViews == 0 || (kinds > 1 && !isSunThroughGlass)) variant.monochrome = false;
+  return variant;
+}
+
+std::vector<LightVariant> allLightVariants() {
+  std::vector<LightVariant> all;
+  const auto add = [&](const LightVariant& variant) {
+    for (const bool monochrome : {false, true})
+      for (const bool composite : {false, true}) {
+        LightVariant v = variant;
+        v.monochrome = monochrome;
+        v.composite = composite;
+        all.push_back(served(v));
+      }
+  };
+  for (int kind = 0; kind < 3; ++kind) {
+    LightVariant v;
+    v.lightKind = kind;
+    add(v);
+    for (int bits = 0; bits < 16; ++bits) {
+      v.shadowArray = (bits & 1) != 0;
+      v.bilinear = (bits & 2) != 0;
+      v.glass = (bits & 4) != 0;
+      v.curves = (bits & 8) != 0;
+      for (v.shadowViews = 1; v.shadowViews <= (kind != 2 && v.shadowArray ? 2 : 1); ++v.shadowViews)
+        add(v);
+    }
+  }
+  return all;
+}
+
+} // namespace tyndall

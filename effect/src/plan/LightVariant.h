@@ -1,0 +1,33 @@
+// What of a light and a frame selects a program.
+#pragma once
+
+#include "gl/Variant.h"
+
+#include <vector>
+
+namespace tyndall {
+
+struct LightVariant {
+  int lightKind = 0;   ///< 0 directional, 1 point, 2 spot
+  int shadowViews = 0; ///< 0, 1, or 2 for several
+  bool shadowArray = false;
+  bool bilinear = false;
+  bool glass = false;
+  bool curves = false; ///< smoke and hair dim the light (Light::curves)
+  bool monochrome = false;
+  bool composite = false; ///< dual-source outputs of unwarp and transmittance instead of two targets
+
+  bool hasShares() const { return shadowViews > 0 && (glass || bilinear); }
+  bool isColoured() const { return !monochrome || glass; } ///< three channels of radiance
+};
+
+gl::Definitions definitionsOf(const LightVariant& variant);
+
+/// The one whose programs draw a variant: grey media have programs of their own where they save most, with a light of
+/// one filter, glass or smoke, or a sun of glass and smoke.
+LightVariant served(LightVariant variant);
+
+/// Every variant that a frame can ask for.
+std::vector<LightVariant> allLightVariants();
+
+} // namespace tyndall

@@ -1,0 +1,199 @@
+#include "plan/PassPlanner.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tyndall {
+
+gl::Uint Allocator::texture(Targets& targets, Resource resource, const Extent& extent, int side) {
+  if (!makes_ || !status_) return 1;
+  const gl::Uint name = targets.get(resource, extent, side);
+  if (name == 0) {
+    const Size size = rowOf(resource).size(extent);
+    fail({StatusCode::OutOfMemory, std::string("GL could not allocate a texture of ") + std::to_string(size.width) +
+                                       " x " + std::to_string(size.height) + " (" + rowOf(resource).name + ")"});
+  }
+  return name;
+}
+
+gl::Uint Allocator::stencil(Targets& targets, const Extent& extent) {
+  if (!makes_ || !status_) return 1;
+  const gl::Uint name = targets.stencil(extent);
+  if (name == 0) fail({StatusCode::OutOfMemory, "GL could not allocate a stencil buffer"});
+  return name;
+}
+
+// Formats of our own textures are ones that GL must render to: if they are refused there is no memory behind them.
+gl::Uint Allocator::framebuffer(const Attachments& attachments, const std::string& field) {
+  if (!makes_ || !status_) return 1;
+  const gl::Uint name = framebuffers_.get(attachments);
+  if (name == 0 && attachments.engines)
+    fail({StatusCode::InvalidFrame, "Frame::" + field + ": this context cannot render to the texture's format"});
+  if (name == 0) fail({StatusCode::OutOfMemory, "GL has no memory behind the textures of a pass"});
+  return name;
+}
+
+void Allocator::fail(Status status) {
+  if (status_) status_ = std::move(status);
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+void PassPlanner::draw(Pass pass, const DrawOptions& options) { draw(pass, titleOf(rowOf(pass).name), options); }
+
+void PassPlanner::draw(Pass pass, const std::string& title, const DrawOptions& options) {
+  const PassRow& row = rowOf(pass);
+  const bool changes = isOverChanges(row.shape);
+  Draw draw;
+  draw.title = title;
+  draw.variant = variantOf(pass, variant, options.options);
+  draw.firstVertex = firstVertexOf(pass, changes);
+  draw.blend = blendOf(row.joining, options.adds);
+  draw.stencil = options.stencil;
+  draw.counting = options.counting;
+  draw.blocks = {frameBlock, lightBlock, epipolarBlock};
+  addReads(row, draw);
+  addTarget(row, options, draw);
+  if (options.viewport) draw.viewport = *options.viewport;
+  addVertices(row.shape, changes, draw);
+  if (options.clearTo)
+    plan.steps.emplace_back(Clear{draw.framebuffer, false, {*options.clearTo, 0, 0, *options.clearTo}});
+  plan.steps.emplace_back(std::move(draw));
+}
+
+void PassPlanner::drawLight(Pass pass, const std::string& title, DrawOptions options) {
+  if (firstLight && drawIndex == 0 && destination.transmittance != 0) {
+    draw(Pass::Transmittance, rowOf(Pass::Transmittance).name, {{}, options.stencil});
+    options.adds = true;
+  }
+  draw(pass, title, options);
+}
+
+void PassPlanner::clear(Resource resource, float red) {
+  board[resource] = textureOf(resource);
+  plan.steps.emplace_back(Clear{imageTarget({board[resource]}, false), false, {red, 0, 0, red}});
+}
+
+void PassPlanner::clearStencil() {
+  plan.steps.emplace_back(Clear{destinationTarget(blendOf(Joining::SumOfLights, false), true), true});
+}
+
+gl::Uint PassPlanner::textureOf(Resource resource) {
+  const Lifetime lifetime = rowOf(resource).lifetime;
+  return allocator.texture(holderOf(lifetime), resource, extent, sideOf(lifetime));
+}
+
+bool PassPlanner::isOverChanges(Shape shape) const {
+  switch (shape) {
+  case Shape::FullScreen:
+  case Shape::Samples:
+    return false;
+  case Shape::Image:
+  case Shape::ImageOfMarch:
+    return drawnTiles != 0;
+  default:
+    return drawnSlices != 0;
+  }
+}
+
+// A shape's own come last: they are 0 where all is drawn.
+void PassPlanner::addReads(const PassRow& row, Draw& draw) const {
+  for (const Read& read : row.reads)
+    draw.reads.emplace_back(read.as ? read.as : samplerOf(read.resource), board[read.resource]);
+  draw.reads.emplace_back(samplerOf(Resource::ChangedTiles), drawnTiles);
+  draw.reads.emplace_back(samplerOf(Resource::ChangedSlices), drawnSlices);
+  draw.reads.emplace_back(samplerOf(Resource::ChangedSegments), drawnSegments);
+}
+
+void PassPlanner::addTarget(const PassRow& row, const DrawOptions& options, Draw& draw) {
+  draw.viewport = {0, 0, extent.width, extent.height};
+  const bool withStencil = options.stencil != Stencil::Off;
+  switch (row.into) {
+  case Into::Own:
+    addOwnTarget(row, draw);
+    break;
+  case Into::Destination:
+    draw.framebuffer = destinationTarget(draw.blend, withStencil);
+    break;
+  case Into::DebugView:
+    draw.framebuffer = imageTarget({board[Resource::DebugView]}, withStencil);
+    break;
+  case Into::Colour:
+    draw.framebuffer = imageTarget({destination.colour}, false);
+    break;
+  case Into::Output:
+    draw.framebuffer = imageTarget({options.output}, false);
+    break;
+  }
+}
+
+void PassPlanner::addOwnTarget(const PassRow& row, Draw& draw) {
+  Attachments attachments;
+  std::size_t count = 0;
+  for (const Resource resource : row.writes) {
+    if (!rowOf(resource).exists(extent)) continue;
+    board[resource] = textureOf(resource);
+    attachments.colours[count++] = board[resource];
+  }
+  draw.framebuffer = allocator.framebuffer(attachments, {});
+  const Size drawn = rowOf(row.writes.front()).drawn(extent);
+  draw.viewport = {0, 0, drawn.width, drawn.height};
+}
+
+// A draw that only adds brings no transmittance.
+gl::Uint PassPlanner::destinationTarget(Blend blend, bool withStencil) {
+  return imageTarget({destination.direct() ? destination.colour : destination.inscatter,
+                      blend == Blend::Add ? 0 : destination.transmittance},
+                     withStencil);
+}
+
+gl::Uint PassPlanner::imageTarget(std::array<gl::Uint, 3> colours, bool withStencil) {
+  Attachments attachments{colours, withStencil ? allocator.stencil(frameTargets, extent) : 0, false};
+  const std::vector<gl::Uint>& engines = destination.engines;
+  attachments.engines = std::any_of(colours.begin(), colours.end(), [&](gl::Uint texture) {
+    return texture != 0 && std::find(engines.begin(), engines.end(), texture) != engines.end();
+  });
+  return allocator.framebuffer(attachments, colours[0] != 0 && colours[0] == destination.colour ? "colour" : "output");
+}
+
+Blend PassPlanner::blendOf(Joining joining, bool adds) const {
+  switch (joining) {
+  case Joining::SumOfDraws:
+    return drawIndex == 0 ? Blend::Replace : Blend::AddAll;
+  case Joining::SumOfDrawsOrKeep:
+    return drawnSlices ? Blend::DualSource : blendOf(Joining::SumOfDraws, adds);
+  case Joining::SumOfLights:
+    return adds || !firstLight || drawIndex > 0 ? Blend::Add
+           : destination.direct()               ? Blend::DualSource
+                                                : Blend::Replace;
+  case Joining::AddAll:
+    return Blend::AddAll;
+  case Joining::BlendIntoColour:
+    return Blend::DualSource;
+  case Joining::OverwriteRgb:
+    return Blend::Colour;
+  default:
+    return Blend::Replace;
+  }
+}
+
+void PassPlanner::addVertices(Shape shape, bool changes, Draw& draw) const {
+  constexpr int kStripLines = 64, kChangedLines = 8;
+  const auto strips = [&](int lines) {
+    const int each = changes ? kChangedLines : kStripLines;
+    draw.vertices = 6;
+    draw.instances = (lines + each - 1) / each;
+  };
+  if (shape == Shape::Samples) {
+    draw.vertices = 3 * extent.slices * extent.samples;
+  } else if ((shape == Shape::Image || shape == Shape::ImageOfMarch) && changes) {
+    draw.vertices = 6;
+    draw.instances = tilesOf(extent);
+  } else if (shape == Shape::StripsOfSlices || (changes && shape != Shape::Rows && shape != Shape::StripsOfRows)) {
+    strips(extent.slices);
+  } else if (shape == Shape::StripsOfRows || changes) {
+    strips(extent.rows);
+  }
+}
+
+} // namespace tyndall

@@ -1,0 +1,415 @@
+#include "plan/Passes.h"
+
+#include "plan/General.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tyndall {
+
+namespace {
+
+using R = Resource;
+using O = const Occurrence&;
+
+const Option kHashes{"ROW_HASHES", {kUndefined, 1}}, kTintSums{"TINT_SUMS", {kUndefined, 1}},
+    kStripsOfRows{"STRIPS_OF_ROWS", {1}};
+
+bool hasRows(O o) { return o.light.shadowViews > 0; }
+bool hasCurves(O o) { return o.light.curves; }
+bool hasPanes(O o) { return o.light.glass && !o.light.curves; }
+bool hasRowDepths(O o) {
+  return hasRows(o) && (!o.has("ROW_HASHES") || (o.light.hasShares() && !o.has("TINT_SUMS"))) &&
+         (!o.has("TINT_SUMS") || hasPanes(o));
+}
+bool hasTree(O o) { return hasRows(o) && (!o.has("TINT_SUMS") || hasPanes(o)); }
+bool hasLowRank(O o) { return !o.has("TINT_SUMS") || hasPanes(o); }
+bool isUnwarped(O o) { return !o.light.composite || !o.has("SPREAD"); }
+bool comparesRows(O o) { return hasRows(o) && o.has("ROW_HASHES") == o.light.hasShares(); }
+
+// A row as it is written down.
+class Row {
+public:
+  Row(Pass pass, const char* name, const char* fragment, Shape shape = Shape::FullScreen)
+      : row_{pass, name, fragment, shape} {}
+  Row reads(std::vector<Read> what) const {
+    return with([&](PassRow& r) { r.reads = what; });
+  }
+  Row walksRows() const; ///< reads them, and looks up in the maps
+  Row writes(std::vector<R> what) const {
+    return with([&](PassRow& r) { r.writes = what; });
+  }
+  Row into(Into where) const {
+    return with([&](PassRow& r) { r.into = where; });
+  }
+  Row joins(Joining how) const {
+    return with([&](PassRow& r) { r.joining = how; });
+  }
+  Row options(std::vector<Option> what) const {
+    return with([&](PassRow& r) { r.options = what; });
+  }
+  Row when(bool (*occurs)(O)) const {
+    return with([&](PassRow& r) { r.occurs = occurs; });
+  }
+  Row sameForAllLights() const {
+    return with([](PassRow& r) { r.ofLights = false; });
+  }
+  operator PassRow() const { return row_; } // NOLINT(google-explicit-constructor): a row is written as what it is
+
+private:
+  template <typename Change>
+  Row with(Change&& change) const {
+    Row changed = *this;
+    change(changed.row_);
+    return changed;
+  }
+  PassRow row_;
+};
+
+Row Row::walksRows() const {
+  return with([](PassRow& r) {
+    for (const R resource : {R::ShadowMap, R::GlassColour, R::GlassDepth, R::Curves, R::CurveCells, R::CurveTree,
+                             R::RowDepths, R::RowShares, R::RowTree, R::RowMeans, R::RowMoments})
+      r.reads.emplace_back(resource);
+  });
+}
+
+// In the order of the enumerators.
+std::vector<PassRow> makeRows() {
+  using S = Shape;
+  constexpr Joining kSumOfLights = Joining::SumOfLights, kSumOfDraws = Joining::SumOfDraws;
+  return {
+      Row(Pass::Exact, "exact", "passes/exact.frag", S::Image)
+          .reads({R::SceneDepth, R::SceneDepthSamples, R::ShadowMap, R::GlassColour, R::GlassDepth, R::Curves})
+          .into(Into::Destination)
+          .joins(kSumOfLights),
+      Row(Pass::Transmittance, "transmittance", "passes/transmittance.frag", S::Image)
+          .reads({R::SceneDepth, R::SceneDepthSamples})
+          .into(Into::Destination)
+          .joins(kSumOfLights),
+      Row(Pass::Composite, "composite", "passes/composite.frag")
+          .reads({R::Inscatter, R::Transmittance})
+          .into(Into::Colour)
+          .joins(Joining::BlendIntoColour)
+          .sameForAllLights(),
+      Row(Pass::CopyToOutput, "output", "passes/copyTexels.frag", S::Image)
+          .reads({R::Image})
+          .into(Into::Output)
+          .options({{"CAPPED", {1}}})
+          .sameForAllLights(),
+      Row(Pass::SampleEnds, "sample ends", "passes/sampleEnds.frag", S::Slices)
+          .reads({R::SceneDepth, R::SliceTable})
+          .writes({R::SampleEnds}),
+      Row(Pass::RowDepths, "rows", "passes/rowDepths.frag", S::StripsOfRows)
+          .reads({R::SliceTable, R::ShadowMap, R::GlassColour, R::GlassDepth})
+          .writes({R::RowDepths, R::RowShares, R::RowHashes})
+          .options({kStripsOfRows, kHashes, kTintSums})
+          .when(hasRowDepths),
+      Row(Pass::CurveCells, "curve cells", "passes/curveCells.frag", S::Rows)
+          .reads({R::SliceTable, R::Curves})
+          .writes({R::CurveCells})
+          .when(hasCurves),
+      Row(Pass::CurveTree, "curve tree", "passes/curveTree.frag", S::Rows)
+          .reads({R::CurveCells})
+          .writes({R::CurveTree})
+          .when(hasCurves),
+      Row(Pass::RowNodes, "nodes", "passes/rowNodes.frag", S::Rows)
+          .reads({R::SliceTable, R::RowDepths, R::RowShares})
+          .writes({R::RowNodes, R::RowNodeMeans, R::RowNodeMoments})
+          .options({kTintSums})
+          .when(hasTree),
+      Row(Pass::RowTree, "tree", "passes/rowTree.frag", S::Rows)
+          .reads({R::SliceTable, R::RowNodes, R::RowNodeMeans, R::RowNodeMoments})
+          .writes({R::RowTree, R::RowMeans, R::RowMoments})
+          .options({kTintSums})
+          .when(hasTree),
+      Row(Pass::PairGroups, "pair groups", "passes/pairTree.frag", S::StripsOfRows)
+          .reads({R::SliceTable, R::RowDepths, R::RowTree})
+          .writes({R::PairTree})
+          .options({kStripsOfRows})
+          .when(hasRows),
+      Row(Pass::PairTree, "pair tree", "passes/pairTree.frag")
+          .reads({R::SliceTable, R::RowDepths, R::RowTree})
+          .writes({R::PairTree})
+          .when(hasRows),
+      Row(Pass::TintGroups, "tint groups", "passes/tintGroups.frag")
+          .reads({R::SliceTable, R::LowRankRays, R::LowRankLights, R::ShadowMap, R::GlassColour, R::GlassDepth,
+                  R::RowDepths})
+          .writes({R::TintRed, R::TintGreen, R::TintBlue})
+          .when(hasPanes),
+      Row(Pass::TintFold, "tint fold", "passes/tintSums.frag")
+          .reads({R::TintRed, R::TintGreen, R::TintBlue})
+          .writes({R::TintRed, R::TintGreen, R::TintBlue})
+          .options({{"FOLD", {1}}})
+          .sameForAllLights(),
+      Row(Pass::TintSums, "tint sums", "passes/tintSums.frag")
+          .reads({R::TintRed,
+                  R::TintGreen,
+                  R::TintBlue,
+                  {R::TintSumsRed, "coarserRed"},
+                  {R::TintSumsGreen, "coarserGreen"},
+                  {R::TintSumsBlue, "coarserBlue"}})
+          .writes({R::TintSumsRed, R::TintSumsGreen, R::TintSumsBlue})
+          .options({{"COARSER", {kUndefined, 1}}})
+          .sameForAllLights(),
+      Row(Pass::PixelTree, "pixels", "passes/march.frag", S::ImageOfMarch)
+          .reads({R::SceneDepth, R::SliceTable, R::SampleEnds})
+          .walksRows()
+          .into(Into::Destination)
+          .joins(kSumOfLights),
+      Row(Pass::PixelsByLowRank, "pixels", "passes/pixelTree.frag", S::Image)
+          .reads({R::SceneDepth,
+                  R::SliceTable,
+                  R::LowRankRays,
+                  R::LowRankLights,
+                  {R::TintSumsRed, "tintRed"},
+                  {R::TintSumsGreen, "tintGreen"},
+                  {R::TintSumsBlue, "tintBlue"}})
+          .walksRows()
+          .into(Into::Destination)
+          .joins(kSumOfLights)
+          .options({{"LOW_RANK", {1}}, kTintSums})
+          .when(hasLowRank),
+      Row(Pass::Marks, "marks", "passes/marks.frag", S::Slices)
+          .reads({R::SliceTable, R::SampleEnds})
+          .writes({R::Marks}),
+      Row(Pass::March, "march", "passes/march.frag", S::Segments)
+          .reads({R::SceneDepth, R::SliceTable, R::SampleEnds})
+          .walksRows()
+          .writes({R::Marched})
+          .joins(Joining::SumOfDrawsOrKeep),
+      Row(Pass::SliceSums, "slice sums", "passes/meanLight.frag")
+          .reads({R::SliceTable, R::Marched})
+          .writes({R::SliceSums})
+          .options({{"MEAN_OF", {1}}}),
+      Row(Pass::MeanLight, "mean", "passes/meanLight.frag")
+          .reads({R::SliceSums})
+          .writes({R::MeanLight})
+          .options({{"MEAN_OF", {2}}}),
+      Row(Pass::Refine, "refine", "passes/refine.frag", S::Slices)
+          .reads({R::SliceTable, R::Marks, R::Marched})
+          .writes({R::RefinedMarks}),
+      Row(Pass::Offsets, "offsets", "passes/offsets.frag", S::Columns)
+          .reads({{R::RefinedMarks, "marks"}})
+          .writes({R::ExtraOffsets})
+          .sameForAllLights(),
+      Row(Pass::MarchExtra, "march extra", "passes/marchExtra.frag", S::StripsOfSlices)
+          .reads({R::SliceTable, R::SampleEnds, {R::RefinedMarks, "marks"}, R::ExtraOffsets})
+          .walksRows()
+          .writes({R::Extra, R::ExtraGreen, R::ExtraBlue})
+          .joins(kSumOfDraws),
+      Row(Pass::Interpolate, "interpolate", "passes/interpolate.frag", S::Slices)
+          .reads({R::SliceTable,
+                  R::SampleEnds,
+                  {R::RefinedMarks, "marks"},
+                  R::ExtraOffsets,
+                  R::Marched,
+                  R::Extra,
+                  R::ExtraGreen,
+                  R::ExtraBlue})
+          .writes({R::EpipolarInscatter})
+          .options({{"CHANGED", {kUndefined, 1}}}),
+      Row(Pass::Unwarp, "unwarp", "passes/unwarp.frag", S::Image)
+          .reads({R::SceneDepth, R::SliceTable, R::EpipolarInscatter, R::MeanLight})
+          .into(Into::Destination)
+          .joins(kSumOfLights)
+          .options({{"SPREAD", {0, 1}}})
+          .when(isUnwarped),
+      Row(Pass::FixupAlongRow, "fix-up", "passes/march.frag", S::ImageOfMarch)
+          .reads({R::SceneDepth, R::SliceTable, R::SampleEnds})
+          .walksRows()
+          .into(Into::Destination)
+          .joins(kSumOfLights),
+      Row(Pass::FixupAllTexels, "fix-up", "passes/exact.frag", S::Image)
+          .reads({R::SceneDepth, R::SceneDepthSamples, R::ShadowMap, R::GlassColour, R::GlassDepth, R::Curves})
+          .into(Into::Destination)
+          .joins(kSumOfLights),
+      Row(Pass::FixupOwnLine, "fix-up", "passes/fixup.frag")
+          .reads({R::SceneDepth, R::SliceTable, {R::PairTree, "rowTree"}})
+          .walksRows()
+          .into(Into::Destination)
+          .joins(kSumOfLights),
+      Row(Pass::KeepEnds, "keep ends", "passes/copyTexels.frag", S::Slices)
+          .reads({R::Image})
+          .writes({R::SampleEnds})
+          .sameForAllLights(),
+      Row(Pass::KeepRows, "keep rows", "passes/copyTexels.frag", S::Rows)
+          .reads({R::Image})
+          .writes({R::RowDepths})
+          .sameForAllLights(),
+      Row(Pass::KeepShares, "keep rows", "passes/copyTexels.frag", S::Rows)
+          .reads({R::Image})
+          .writes({R::RowShares})
+          .sameForAllLights(),
+      Row(Pass::KeepHashes, "keep rows", "passes/copyTexels.frag", S::Rows)
+          .reads({R::Image})
+          .writes({R::RowHashes})
+          .sameForAllLights(),
+      Row(Pass::KeepDepth, "keep depth", "passes/copyTexels.frag", S::Image)
+          .reads({{R::SceneDepth, "image"}})
+          .writes({R::LastDepth})
+          .sameForAllLights(),
+      Row(Pass::ChangedParts, "changed parts", "passes/changedParts.frag", S::Rows)
+          .reads({R::SliceTable, R::RowDepths, R::LastRowDepths, R::RowHashes, R::LastRowHashes})
+          .writes({R::ChangedParts})
+          .options({kHashes})
+          .when(comparesRows),
+      Row(Pass::ChangedEnds, "changed ends", "passes/changedEnds.frag", S::Slices)
+          .reads({R::SampleEnds, R::LastSampleEnds})
+          .writes({R::ChangedEnds})
+          .sameForAllLights(),
+      Row(Pass::ChangedSegments, "changed segments", "passes/changedSegments.frag", S::Slices)
+          .reads({R::SliceTable, R::SampleEnds, R::LastSampleEnds, R::ChangedEnds, R::ChangedParts})
+          .writes({R::ChangedSegments}),
+      Row(Pass::ChangedSlices, "changed slices", "passes/changedSlices.frag", S::Columns)
+          .reads({R::SliceTable, R::ChangedSegments, R::ChangedParts})
+          .writes({R::ChangedSlices}),
+      Row(Pass::ChangedTiles, "tiles", "passes/changedTiles.frag")
+          .reads({R::SceneDepth, R::LastDepth, R::SliceTable, R::SampleEnds, R::ChangedSegments, R::ChangedSlices,
+                  R::MovedSlices})
+          .writes({R::ChangedTiles})
+          .sameForAllLights(),
+      Row(Pass::DebugSlices, "debug view", "passes/debugSlices.frag")
+          .reads({R::SliceTable})
+          .into(Into::DebugView)
+          .sameForAllLights(),
+      Row(Pass::DebugSamples, "debug view", "passes/debugSamples.frag", S::Samples)
+          .reads({R::SliceTable, R::SampleEnds, R::Marks, R::RefinedMarks})
+          .into(Into::DebugView)
+          .joins(Joining::AddAll)
+          .sameForAllLights(),
+      Row(Pass::DebugFixup, "debug view", "passes/debugFixup.frag", S::Image).into(Into::DebugView).sameForAllLights(),
+      Row(Pass::DebugVisitsOfLight, "debug view", "passes/pixelTree.frag", S::Image)
+          .reads({R::SceneDepth, R::SliceTable})
+          .walksRows()
+          .into(Into::DebugView)
+          .joins(Joining::AddAll)
+          .options({{"COUNT_VISITS", {1}}}),
+      Row(Pass::DebugRedrawn, "debug view", "passes/debugFixup.frag", S::Image)
+          .into(Into::DebugView)
+          .sameForAllLights(),
+      Row(Pass::DebugRowMeans, "debug mean", "passes/debugMean.frag")
+          .reads({R::Image})
+          .writes({R::DebugRowMeans})
+
+          .sameForAllLights(),
+      Row(Pass::DebugMean, "debug mean", "passes/debugMean.frag")
+          .reads({{R::DebugRowMeans, "image"}})
+          .writes({R::DebugMean})
+
+          .sameForAllLights(),
+      Row(Pass::DebugImage, "debug view", "passes/debugImage.frag")
+          .reads({R::Image})
+          .into(Into::Colour)
+          .joins(Joining::OverwriteRgb)
+          .sameForAllLights(),
+      Row(Pass::DebugVisits, "debug view", "passes/debugVisits.frag")
+          .reads({R::Image})
+          .into(Into::Colour)
+          .joins(Joining::OverwriteRgb)
+          .sameForAllLights(),
+      Row(Pass::DebugDifference, "debug view", "passes/debugDifference.frag")
+          .reads({R::Inscatter, {R::DebugExact, "exactInscatter"}, {R::DebugMean, "meanInscatter"}})
+          .into(Into::Colour)
+          .joins(Joining::OverwriteRgb)
+          .sameForAllLights(),
+  };
+}
+
+// The vertex shader of a shape, and how it tells apart what it draws (glsl/lib/partly.glsl).
+struct Vertices {
+  const char* shader;
+  int along = kUndefined;
+  int whole = 0, changed = 3; // vertices from which on it draws all, or what has changed
+};
+
+Vertices verticesOf(Shape shape) {
+  constexpr const char *kStrips = "passes/strips.vert", *kChangedStrips = "passes/changedStrips.vert",
+                       *kMarch = "passes/march.vert";
+  switch (shape) {
+  case Shape::Image:
+    return {"passes/tiles.vert"};
+  case Shape::Slices:
+    return {kChangedStrips, 0};
+  case Shape::Segments:
+    return {kMarch, 1};
+  case Shape::ImageOfMarch:
+    return {kMarch, 1, 9, 12};
+  case Shape::Columns:
+    return {kChangedStrips, 2};
+  case Shape::Rows:
+    return {kChangedStrips, 3};
+  case Shape::StripsOfSlices:
+  case Shape::StripsOfRows:
+    return {kStrips, kUndefined, 0, 6};
+  case Shape::Samples:
+    return {"passes/debugSamples.vert"};
+  default:
+    return {gl::kFullScreen};
+  }
+}
+
+// Every choice of values for the options from the i-th on.
+void addOptions(const std::vector<Option>& options, std::size_t i, gl::Definitions chosen,
+                std::vector<gl::Definitions>& all) {
+  if (i == options.size()) {
+    all.push_back(std::move(chosen));
+    return;
+  }
+  for (const int value : options[i].values) {
+    gl::Definitions with = chosen;
+    if (value != kUndefined && options[i].values.size() > 1) with.emplace_back(options[i].name, value);
+    addOptions(options, i + 1, std::move(with), all);
+  }
+}
+
+void addVariants(Pass pass, const LightVariant& light, std::vector<gl::Variant>& all) {
+  const PassRow& row = rowOf(pass);
+  std::vector<gl::Definitions> choices;
+  addOptions(row.options, 0, {}, choices);
+  for (const gl::Definitions& options : choices)
+    if (!row.occurs || row.occurs({light, options})) all.push_back(variantOf(pass, light, options));
+}
+
+} // namespace
+
+bool Occurrence::has(const char* option) const {
+  return std::any_of(options.begin(), options.end(), [&](const auto& o) { return o.first == option && o.second != 0; });
+}
+
+const PassRow& rowOf(Pass pass) {
+  static const std::vector<PassRow> rows = makeRows();
+  return rows.at(static_cast<std::size_t>(pass));
+}
+
+gl::Variant variantOf(Pass pass, const LightVariant& light, const gl::Definitions& options) {
+  const PassRow& row = rowOf(pass);
+  const Vertices vertices = verticesOf(row.shape);
+  gl::Definitions definitions = row.ofLights ? definitionsOf(light) : gl::Definitions{};
+  definitions.insert(definitions.end(), options.begin(), options.end());
+  for (const Option& option : row.options) // without a choice they are the row's own
+    if (option.values.size() == 1) definitions.emplace_back(option.name, option.values.front());
+  if (vertices.along != kUndefined) definitions.emplace_back("ALONG", vertices.along);
+  return {row.fragment, general(row.fragment, std::move(definitions)), vertices.shader};
+}
+
+int firstVertexOf(Pass pass, bool changes) {
+  const Vertices vertices = verticesOf(rowOf(pass).shape);
+  return changes ? vertices.changed : vertices.whole;
+}
+
+std::vector<gl::Variant> allVariants() {
+  std::vector<gl::Variant> all;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(Pass::Count); ++i) {
+    const auto pass = static_cast<Pass>(i);
+    if (!rowOf(pass).ofLights) {
+      addVariants(pass, {}, all);
+      continue;
+    }
+    for (const LightVariant& light : allLightVariants())
+      addVariants(pass, light, all);
+  }
+  return all;
+}
+
+} // namespace tyndall

@@ -1,0 +1,233 @@
+#include "plan/PlanFrame.h"
+
+#include "SampleBudget.h"
+#include "optics/Blocks.h"
+#include "optics/LightVolume.h"
+#include "passes/Epipolar.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tyndall {
+
+namespace {
+
+bool hasDebugView(const Frame& frame) { return frame.settings.debugView != DebugView::Composite; }
+bool showsSlices(const Frame& frame) {
+  return frame.settings.debugView >= DebugView::Slices && frame.settings.debugView <= DebugView::NodeVisits;
+}
+// Slices take one depth per pixel: a multisampled frame is rendered by exact.
+bool usesSlices(const Frame& frame) {
+  return frame.settings.technique != Technique::Exact && !frame.depth.multisampled;
+}
+bool changesColour(const Frame& frame) { return optics::extinctionOf(frame.medium) != glm::dvec3(0); }
+
+// Why a light has nothing to add; empty if it has.
+std::string reasonToSkip(const Frame& frame, const Light& light, bool wantsInscatter, bool anyCamera) {
+  if (light.colour == Rgb{0, 0, 0}) return "the light is black";
+  if (optics::scatteringOf(frame.medium) == glm::dvec3(0)) return "the medium does not scatter";
+  if (!wantsInscatter) return "only the transmittance is wanted";
+  if (!anyCamera && optics::isOutOfView(light, frame.camera)) return "the light's volume is outside the view";
+  return {};
+}
+
+// True if the light may be capped though the sum of all is not: one of several adds more than its part of what the
+// formats hold, so that they are to be added up in a texture of our own first.
+bool sumIsCapped(const Frame& frame, float most, std::size_t lights) {
+  if (lights < 2 || most >= kLargestFloat) return false;
+  return std::any_of(frame.lights.begin(), frame.lights.end(), [&](const Light& light) {
+    return optics::brightestInscatter(frame, light) > static_cast<double>(most) / static_cast<double>(lights);
+  });
+}
+
+// The shader variant of a light.
+LightVariant variantOf(const Frame& frame, const Light& light, bool direct) {
+  LightVariant variant;
+  variant.monochrome = optics::isMonochrome(frame.medium);
+  variant.composite = direct;
+  variant.lightKind = static_cast<int>(light.kind);
+  variant.glass = light.glass.colour != 0;
+  if (light.shadow.texture == 0) return served(variant);
+  variant.shadowViews = light.shadow.views.size() > 1 ? 2 : 1;
+  variant.shadowArray = light.shadow.array;
+  variant.curves = light.curves.texture != 0;
+  variant.bilinear = frame.settings.shadowFilter == ShadowFilter::Bilinear;
+  return served(variant);
+}
+
+std::string nameOf(const Frame& frame, std::size_t light) {
+  return (usesSlices(frame) ? "light " : "exact light ") + std::to_string(light);
+}
+
+float partOf(float most, std::size_t lights) { return most / static_cast<float>(std::max<std::size_t>(lights, 1)); }
+
+} // namespace
+
+FramePlanner::FramePlanner(const PlanInputs& inputs, Allocator& allocator, PlannedFrame& out)
+    : in_(inputs), frame_(inputs.frame), allocator_(allocator), out_(out),
+      passes_(allocator, out.plan, inputs.targets) {
+  passes_.extent.width = frame_.width;
+  passes_.extent.height = frame_.height;
+  passes_.board[frame_.depth.multisampled ? Resource::SceneDepthSamples : Resource::SceneDepth] = frame_.depth.texture;
+}
+
+void FramePlanner::plan() {
+  if (!changesColour(frame_)) out_.plan.skip("composite", "the medium neither scatters nor absorbs");
+  const bool reuses =
+      in_.eye && changesColour(frame_) && (!hasDebugView(frame_) || frame_.settings.debugView == DebugView::Redrawn);
+  if (!reuses) return planInFull();
+  passes_.eyeTargets = &in_.eye->targets;
+  begin(keptDestination());
+  const std::vector<DrawnLight> drawn = lightsToDraw(frame_, passes_.destination);
+  planReused(drawn, planRedraw(*in_.eye, keyOf(drawn), frame_));
+}
+
+// As the papers do: each light's inscatter, and with the first the transmittance, into colour at once or by a
+// composite.
+void FramePlanner::planInFull() {
+  const Output& output = frame_.output;
+  if (!changesColour(frame_) && !hasDebugView(frame_) && output.inscatter == 0 && output.transmittance == 0) return;
+  begin(chooseDestination(changesColour(frame_)));
+  if (showsSlices(frame_)) passes_.clear(Resource::DebugView, 0);
+  planLights(frame_, passes_.destination, lightsToDraw(frame_, passes_.destination));
+  if (passes_.destination.copies) copyToOutput(passes_.destination.inscatter, output.inscatter);
+  if (!passes_.destination.composite) return;
+  if (frame_.settings.debugView == DebugView::Redrawn) showRedrawn(Redraw::All, 0);
+  planPicture();
+}
+
+Destination FramePlanner::chooseDestination(bool changes) {
+  const Output& output = frame_.output;
+  const auto lights =
+      static_cast<std::size_t>(std::count_if(frame_.lights.begin(), frame_.lights.end(), [&](const Light& light) {
+        return reasonToSkip(frame_, light, true, in_.ahead).empty();
+      }));
+  const float most = output.inscatter ? in_.textures.outputMax : in_.textures.colourMax; // of where they are added up
+  const bool apart = in_.sumsApart.value_or(sumIsCapped(frame_, most, lights));
+  Destination to;
+  to.colour = frame_.colour;
+  to.engines = {frame_.colour, output.inscatter, output.transmittance};
+  to.ceiling = partOf(most, lights);
+  const bool spreads = frame_.settings.technique == Technique::Epipolar &&
+                       std::isfinite(frame_.settings.spreadThreshold); // several times the time: no programs for it
+  if (output.inscatter == 0 && output.transmittance == 0 && !hasDebugView(frame_) && !apart && !spreads) return to;
+  to.inscatter = apart ? 0 : output.inscatter;
+  to.transmittance = output.transmittance;
+  to.composite = hasDebugView(frame_) || (changes && frame_.colour != 0);
+  to.copies = apart && output.inscatter != 0;
+  if (!to.inscatter && (to.composite || to.copies)) {
+    to.inscatter = passes_.textureOf(Resource::Inscatter);
+    to.ceiling = partOf(kLargestFloat, lights);
+  }
+  if (!to.transmittance && to.composite) to.transmittance = passes_.textureOf(Resource::Transmittance);
+  return to;
+}
+
+void FramePlanner::begin(const Destination& destination) {
+  passes_.destination = destination;
+  passes_.frameBlock = out_.plan.add(optics::frameBlock(
+      frame_, {in_.textures.depthSamples, destination.ceiling, in_.textures.colourMax, in_.textures.outputMax}));
+}
+
+std::vector<DrawnLight> FramePlanner::lightsToDraw(const Frame& frame, const Destination& destination) {
+  const bool direct = destination.direct();
+  std::vector<bool> drawn;
+  for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+    const std::string reason = reasonToSkip(frame, frame.lights[i], direct || destination.inscatter != 0, in_.ahead);
+    drawn.push_back(reason.empty());
+    if (!reason.empty()) out_.plan.skip(nameOf(frame, i), reason);
+  }
+  const std::vector<Settings> settings = dealSamples(frame, drawn);
+  std::vector<DrawnLight> lights;
+  for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+    const FrameTextures::Shadow& map = in_.textures.shadows[i];
+    if (drawn[i])
+      lights.push_back({i, nameOf(frame, i), settings[i],
+                        optics::lightBlock(frame, frame.lights[i], map.width, map.height, map.curvesSize),
+                        variantOf(frame, frame.lights[i], direct)});
+  }
+  return lights;
+}
+
+void FramePlanner::planLights(const Frame& frame, const Destination& destination,
+                              const std::vector<DrawnLight>& lights) {
+  PassPlanner passes = passes_;
+  passes.destination = destination;
+  Frame lit = frame; // for one light at a time
+  for (const DrawnLight& drawn : lights) {
+    lit.settings = drawn.settings;
+    passes.firstLight = &drawn == &lights.front();
+    LightPlanner light(passes, lit, drawn, in_.textures);
+    if (!usesSlices(frame)) {
+      out_.plan.marched += light.pixels();
+      light.drawLight(Pass::Exact, drawn.name, {});
+      continue;
+    }
+    light.makeSlices(in_.limits);
+    passes::epipolar::plan(light, passes.firstLight ? frame.settings.debugView : DebugView::Composite);
+  }
+  if (!lights.empty() && !in_.ahead) return;
+  passes.firstLight = true;
+  passes.variant.composite = destination.direct();
+  passes.draw(Pass::Transmittance);
+}
+
+// What the engine's colour receives: both textures blended into it, or a debug view.
+void FramePlanner::planPicture() {
+  const Destination& from = passes_.destination;
+  const DebugView view = frame_.settings.debugView;
+  Board& board = passes_.board;
+  board[Resource::Inscatter] = from.inscatter;
+  board[Resource::Transmittance] = from.transmittance;
+  if (!hasDebugView(frame_)) return passes_.draw(Pass::Composite);
+  board[Resource::Image] = view == DebugView::Transmittance                    ? from.transmittance
+                           : showsSlices(frame_) || view == DebugView::Redrawn ? board[Resource::DebugView]
+                                                                               : from.inscatter;
+  if (view == DebugView::Difference) {
+    planDifference();
+    passes_.draw(Pass::DebugDifference);
+  } else if (view == DebugView::NodeVisits) {
+    planMean(board[Resource::DebugView]);
+    out_.visits = board[Resource::DebugMean];
+    board[Resource::Image] = board[Resource::DebugView];
+    passes_.draw(Pass::DebugVisits);
+  } else {
+    passes_.draw(Pass::DebugImage);
+  }
+}
+
+// Exact's inscatter, and its mean.
+void FramePlanner::planDifference() {
+  Frame exact = frame_;
+  exact.settings.technique = Technique::Exact;
+  Destination to;
+  to.inscatter = passes_.board[Resource::DebugExact] = passes_.textureOf(Resource::DebugExact);
+  planLights(exact, to, lightsToDraw(exact, to));
+  planMean(to.inscatter);
+}
+
+void FramePlanner::planMean(gl::Uint image) {
+  passes_.board[Resource::Image] = image;
+  passes_.draw(Pass::DebugRowMeans);
+  passes_.draw(Pass::DebugMean);
+}
+
+void FramePlanner::copyToOutput(gl::Uint from, gl::Uint output) {
+  if (output == 0) return;
+  passes_.board[Resource::Image] = from;
+  DrawOptions options;
+  options.output = output;
+  passes_.draw(Pass::CopyToOutput, options);
+}
+
+// What a frame with Frame::reuse drew: all, or its tiles.
+void FramePlanner::showRedrawn(Redraw picture, gl::Uint tiles) {
+  passes_.clear(Resource::DebugView, picture == Redraw::All ? 1 : 0);
+  if (picture != Redraw::Part) return;
+  passes_.drawnTiles = tiles;
+  passes_.draw(Pass::DebugRedrawn);
+  passes_.drawnTiles = 0;
+}
+
+} // namespace tyndall

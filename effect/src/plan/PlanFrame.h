@@ -1,0 +1,68 @@
+// A frame's plan: which lights, which passes, with what programs, textures, framebuffers and blocks.
+#pragma once
+
+#include "plan/LightPlanner.h"
+#include "reuse/RedrawPlan.h"
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace tyndall {
+
+/// What a plan is made from, and with.
+struct PlanInputs {
+  const Frame& frame;
+  const FrameTextures& textures;
+  const Limits& limits;
+  Targets& targets;
+  KeptEye* eye = nullptr; ///< temporal reuse; null: nothing is kept
+  bool counts = true;     ///< queries may be used: none of the engine's own is under way
+  // To compile ahead of frames like this one:
+  bool ahead = false;              ///< with a camera that may look elsewhere
+  std::optional<bool> sumsApart{}; ///< lights may, or may not, need a texture of their own to be added up in
+};
+
+struct PlannedFrame {
+  FramePlan plan;
+  std::optional<KeptNext> next;
+  gl::Uint empty = 0;  ///< what a sampler reads that has nothing to read
+  gl::Uint visits = 0; ///< DebugView::NodeVisits: a texture that holds their mean
+};
+
+class FramePlanner {
+public:
+  FramePlanner(const PlanInputs& inputs, Allocator& allocator, PlannedFrame& out);
+
+  /// Every step of the frame; what could not be made is the allocator's status.
+  void plan();
+
+  /// The same for what may be kept of the last frame and is drawn anew: to compile ahead for it.
+  void planRedrawn(bool comparesEnds, bool comparesRows);
+
+private:
+  void planInFull();
+  void planReused(const std::vector<DrawnLight>& drawn, RedrawPlan redraw);
+  gl::Uint planParts(const std::vector<DrawnLight>& drawn, RedrawPlan& redraw, KeptNext& next);
+  gl::Uint planTiles(const std::vector<std::unique_ptr<LightPlanner>>& lights, const RedrawPlan& redraw);
+  FrameKey keyOf(const std::vector<DrawnLight>& drawn) const;
+  Destination chooseDestination(bool changesColour);
+  Destination keptDestination() const;
+  void begin(const Destination& destination);
+  std::vector<DrawnLight> lightsToDraw(const Frame& frame, const Destination& destination);
+  void planLights(const Frame& frame, const Destination& destination, const std::vector<DrawnLight>& lights);
+  void planPicture();
+  void planDifference();
+  void planMean(gl::Uint image);
+  void showRedrawn(Redraw picture, gl::Uint tiles);
+  void copyToOutput(gl::Uint from, gl::Uint output);
+
+  const PlanInputs& in_;
+  const Frame& frame_;
+  Allocator& allocator_;
+  PlannedFrame& out_;
+  PassPlanner passes_; // of the whole frame
+};
+
+} // namespace tyndall

@@ -1,0 +1,187 @@
+#include "plan/Resources.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace tyndall {
+
+namespace {
+
+using E = const Extent&;
+using Format = TexelFormat;
+
+constexpr Format kGiven{}, kR32{gl::R32F, gl::RED, 4}, kRg32{gl::RG32F, gl::RG, 8}, kRgba32{gl::RGBA32F, gl::RGBA, 16},
+    kRgba16{gl::RGBA16F, gl::RGBA, 8}, kUnorm2{gl::RG16, gl::RG, 4}, kUnorm4{gl::RGBA16, gl::RGBA, 8};
+
+constexpr int kPartTexels = 256, kSegment = 16, kChunk = 64;
+
+bool always(E) { return true; }
+bool coloured(E e) { return e.coloured; }
+bool floatRows(E e) { return e.floatRows; }
+bool glass(E e) { return e.glass; }
+bool shares(E e) { return e.shares; }
+bool hashes(E e) { return e.hashes; }
+
+int treeNodes(int texels, int finest, int levels) {
+  int nodes = 0;
+  for (int level = finest; level <= levels; ++level)
+    nodes += texels >> (2 * level);
+  return nodes;
+}
+
+// Nodes of all levels, down to one node over all cells; at least one, so that there is a texture.
+int curveNodes(int cells) {
+  int nodes = 0;
+  for (int level = 1, count = cells; count > 1; ++level) {
+    count = (cells + (1 << (2 * level)) - 1) >> (2 * level);
+    nodes += count;
+  }
+  return std::max(nodes, 1);
+}
+
+Size none(E) { return {}; }
+Size image(E e) { return {e.width, e.height}; }
+Size table(E e) { return {e.slices, e.tableRows}; }
+Size samples(E e) { return {e.slices, e.samples}; }
+Size chunks(E e) { return {e.slices, e.samples / kChunk}; }
+Size chunksAndSum(E e) { return {e.slices, e.samples / kChunk + 1}; }
+Size segments(E e) { return {e.slices, e.samples / kSegment}; }
+Size segmentEnds(E e) { return {e.slices, e.samples / kSegment + 1}; }
+Size fours(E e) { return {e.slices, e.samples / 4}; }
+Size slices(E e) { return {e.slices, 1}; }
+Size one(E) { return {1, 1}; }
+Size imageRows(E e) { return {e.height, 1}; }
+
+Size groups(E e) { return {e.rowTexels / 4, e.rowRoom}; }
+Size drawnGroups(E e) { return {e.drawnTexels / 4, e.rows}; }
+Size nodes(E e) { return {e.rowTexels / 16, e.rowRoom}; }
+Size drawnNodes(E e) { return {e.drawnTexels / 16, e.rows}; }
+Size tree(E e) { return {treeNodes(e.rowTexels, 2, e.treeLevels), e.rowRoom}; }
+Size drawnTree(E e) { return {treeNodes(e.drawnTexels, 2, e.treeLevels), e.rows}; }
+Size pairs(E e) { return {treeNodes(e.rowTexels, 1, e.treeLevels), e.rowRoom}; }
+Size cells(E e) { return {e.curveCells, e.rowRoom}; }
+Size drawnCells(E e) { return {e.curveCells, e.rows}; }
+Size cellTree(E e) { return {curveNodes(e.curveCells), e.rowRoom}; }
+Size drawnCellTree(E e) { return {curveNodes(e.curveCells), e.rows}; }
+Size parts(E e) { return {(e.rowTexels + kPartTexels - 1) / kPartTexels, e.rowRoom}; }
+Size drawnParts(E e) { return {(e.rowTexels + kPartTexels - 1) / kPartTexels, e.rows}; }
+
+Size lowRankRays(E e) { return {64, e.terms}; }
+Size lowRankLights(E e) { return {e.lowRankSets, 2 * e.terms * 64}; }
+Size tints(E e) { return {e.rowTexels >> (2 * e.tintLevel + 2), (e.terms + 3) / 4 * e.rowRoom}; }
+Size drawnTints(E e) { return {e.drawnTexels >> (2 * e.tintLevel + 2), (e.terms + 3) / 4 * e.rowRoom}; }
+
+Size tiles(E e) { return {kTilesAcross, (tilesOf(e) + kTilesAcross - 1) / kTilesAcross}; }
+
+// In the order of the enumerators.
+constexpr ResourceRow kRows[] = {
+    {"scene depth", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "the engine's"},
+    {"scene depth samples", kGiven, kGiven, always, always, none, none, Lifetime::Frame,
+     "the engine's, if multisampled"},
+    {"shadow map", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "the engine's"},
+    {"glass colour", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "the engine's"},
+    {"glass depth", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "the engine's"},
+    {"curves", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "smoke and hair: Light::curves"},
+    {"image", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "what a pass copies or shows"},
+    {"empty", kR32, kR32, always, always, one, one, Lifetime::Frame, "what a sampler reads that has nothing to read"},
+    {"inscatter", kRgba32, kRgba32, always, always, image, image, Lifetime::Eye,
+     "where the engine wants its own transmittance and a composite"},
+    {"transmittance", kRgba32, kRgba32, always, always, image, image, Lifetime::Eye,
+     "where the engine wants its own inscatter and a composite"},
+    {"slice table", kRgba32, kRgba32, always, always, table, table, Lifetime::Light,
+     "the slices' geometry, computed in double"},
+    {"sample ends", kR32, kR32, always, always, samples, samples, Lifetime::Compared,
+     "distance along the camera ray; float, for breaks and the march"},
+    {"marks", kUnorm4, kUnorm4, always, always, chunks, chunks, Lifetime::Frame, "four masks of 16 samples"},
+    {"refined marks", kUnorm4, kUnorm4, always, always, chunks, chunks, Lifetime::Frame,
+     "the marks with the refinement's"},
+    {"marched", kRgba16, kR32, coloured, always, segmentEnds, segmentEnds, Lifetime::Light,
+     "light of the regular march samples, in no unit (lib/stored.glsl)"},
+    {"slice sums", kRg32, kRg32, always, always, slices, slices, Lifetime::Frame, "inscatter over each slice"},
+    {"mean light", kR32, kR32, always, always, one, one, Lifetime::Frame, "the picture's mean inscatter"},
+    {"extra offsets", kR32, kR32, always, always, chunksAndSum, chunksAndSum, Lifetime::Frame,
+     "where a chunk's extra samples are packed"},
+    {"extra", kRgba16, kRgba32, coloured, always, fours, fours, Lifetime::Frame,
+     "as marched, of the march samples between, packed; red or grey"},
+    {"extra green", kRgba16, kRgba16, always, coloured, fours, fours, Lifetime::Frame, "the same in green"},
+    {"extra blue", kRgba16, kRgba16, always, coloured, fours, fours, Lifetime::Frame, "the same in blue"},
+    {"epipolar inscatter", kRgba16, kRg32, coloured, always, samples, samples, Lifetime::Light,
+     "the same of all samples, with their distance"},
+    {"row depths", kRgba32, kUnorm4, floatRows, always, groups, drawnGroups, Lifetime::ComparedRows,
+     "the shadow map along each slice"},
+    {"row shares", kUnorm4, kUnorm2, glass, shares, groups, drawnGroups, Lifetime::ComparedRows,
+     "how much is lit behind a group's split; filtered or glass"},
+    {"row nodes", kRgba32, kUnorm4, floatRows, always, nodes, drawnNodes, Lifetime::Frame,
+     "the tree's finest level, to gather the others from"},
+    {"row node means", kUnorm4, kUnorm2, glass, always, nodes, drawnNodes, Lifetime::Frame,
+     "the same: averages; with glass, means"},
+    {"row node moments", kUnorm4, kUnorm4, always, glass, nodes, drawnNodes, Lifetime::Frame,
+     "the same with glass: first moments"},
+    {"row tree", kRgba32, kUnorm4, floatRows, always, tree, drawnTree, Lifetime::LightRows,
+     "all levels of the tree: where depths split"},
+    {"row means", kUnorm4, kUnorm2, glass, always, tree, drawnTree, Lifetime::LightRows,
+     "the same: averages; with glass, means"},
+    {"row moments", kUnorm4, kUnorm4, always, glass, tree, drawnTree, Lifetime::LightRows,
+     "the same with glass: first moments"},
+    {"pair tree", kRg32, kUnorm2, floatRows, always, pairs, pairs, Lifetime::Frame,
+     "the same over two neighbouring rows, for rays between them"},
+    {"curve cells", kRgba32, kRgba32, always, always, cells, drawnCells, Lifetime::LightRows,
+     "smoke and hair along each slice"},
+    {"curve tree", kRgba32, kRgba32, always, always, cellTree, drawnCellTree, Lifetime::LightRows, "a tree over them"},
+    {"low rank rays", kRgba32, kRgba32, always, always, lowRankRays, lowRankRays, Lifetime::Frame,
+     "factors of camera rays"},
+    {"low rank lights", kRgba32, kRgba32, always, always, lowRankLights, lowRankLights, Lifetime::Frame,
+     "the same of light rays, and their prefix sums"},
+    {"tint red", kRgba32, kRgba32, always, always, tints, drawnTints, Lifetime::Frame,
+     "low rank with glass: terms times tints, of groups of 4, 16, ... texels"},
+    {"tint green", kRgba32, kRgba32, always, always, tints, drawnTints, Lifetime::Frame, "the same in green"},
+    {"tint blue", kRgba32, kRgba32, always, always, tints, drawnTints, Lifetime::Frame, "the same in blue"},
+    {"tint sums red", kRgba32, kRgba32, always, always, tints, drawnTints, Lifetime::Frame,
+     "their prefix sums along each row"},
+    {"tint sums green", kRgba32, kRgba32, always, always, tints, drawnTints, Lifetime::Frame, "the same in green"},
+    {"tint sums blue", kRgba32, kRgba32, always, always, tints, drawnTints, Lifetime::Frame, "the same in blue"},
+    {"row hashes", kRg32, kRg32, always, hashes, groups, drawnGroups, Lifetime::ComparedRows,
+     "temporal reuse: all that decides along a row; filtered or glass"},
+    {"last sample ends", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "the same: the last frame's"},
+    {"last row depths", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "the same: the last frame's"},
+    {"last row hashes", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "the same: the last frame's"},
+    {"changed parts", kRg32, kRg32, always, always, parts, drawnParts, Lifetime::Frame,
+     "the same: depths between which 256 texels of a row differ from the last frame's"},
+    {"changed ends", kR32, kR32, always, always, segments, segments, Lifetime::Frame,
+     "the same: segments with other ends than in the last frame"},
+    {"changed segments", kR32, kR32, always, always, segments, segments, Lifetime::Light,
+     "the same: those to be drawn anew"},
+    {"changed slices", kRgba32, kRgba32, always, always, slices, slices, Lifetime::Light,
+     "the same: from which segment to which, of eight slices"},
+    {"moved slices", kRgba32, kRgba32, always, always, slices, slices, Lifetime::Light,
+     "the same: those to be compared"},
+    {"changed tiles", kR32, kR32, always, always, tiles, tiles, Lifetime::Frame, "the same: squares of 16 x 16 pixels"},
+    {"last depth", kR32, kR32, always, always, image, image, Lifetime::Eye,
+     "the same: the last frame's scene depth, where it is compared"},
+    {"debug view", kRgba32, kRgba32, always, always, image, image, Lifetime::Frame,
+     "debug views of slices: what is counted or shown, until all lights are done"},
+    {"debug exact", kRgba32, kRgba32, always, always, image, image, Lifetime::Frame,
+     "debug view of the difference: exact's inscatter"},
+    {"debug row means", kRgba32, kRgba32, always, always, imageRows, imageRows, Lifetime::Frame,
+     "the same, or visits: mean over each row of pixels"},
+    {"debug mean", kR32, kR32, always, always, one, one, Lifetime::Frame, "the same: their mean"},
+};
+static_assert(sizeof kRows / sizeof *kRows == static_cast<std::size_t>(Resource::Count), "a row for each resource");
+
+} // namespace
+
+int tilesOf(const Extent& e) { return ((e.width + kTile - 1) / kTile) * ((e.height + kTile - 1) / kTile); }
+
+const ResourceRow& rowOf(Resource resource) { return kRows[static_cast<std::size_t>(resource)]; }
+
+std::string samplerOf(Resource resource) {
+  std::string name;
+  bool capital = false;
+  for (const char* c = rowOf(resource).name; *c; ++c) {
+    if (*c != ' ') name += capital ? static_cast<char>(std::toupper(static_cast<unsigned char>(*c))) : *c;
+    capital = *c == ' ';
+  }
+  return name;
+}
+
+} // namespace tyndall

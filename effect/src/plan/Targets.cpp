@@ -1,0 +1,105 @@
+#include "plan/Targets.h"
+
+#include "gl/Label.h"
+#include "gl/OwnErrors.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tyndall {
+
+Targets::~Targets() { dropOlderThan(-1); }
+
+gl::Uint Targets::get(Resource resource, const Extent& extent, int side) {
+  const ResourceRow& row = rowOf(resource);
+  const TexelFormat& format = row.isWide(extent) ? row.wide : row.narrow;
+  Slot slot;
+  slot.resource = resource;
+  slot.size = row.size(extent);
+  slot.format = format.internal;
+  slot.bytesPerTexel = format.bytes;
+  slot.side = side;
+  const gl::Uint known = find(slot);
+  return known ? known : makeRoomFor(std::move(slot));
+}
+
+gl::Uint Targets::stencil(const Extent& extent) {
+  Slot slot;
+  slot.size = {extent.width, extent.height};
+  slot.format = gl::STENCIL_INDEX8;
+  const gl::Uint known = find(slot);
+  return known ? known : makeRoomFor(std::move(slot));
+}
+
+gl::Uint Targets::find(const Slot& wanted) {
+  for (Slot& slot : slots_)
+    if (slot.resource == wanted.resource && slot.side == wanted.side && slot.format == wanted.format &&
+        slot.size.width == wanted.size.width && slot.size.height == wanted.size.height) {
+      slot.age = 0;
+      return slot.name();
+    }
+  return 0;
+}
+
+gl::Uint Targets::makeRoomFor(Slot wanted) {
+  if (!make(wanted)) { // without what this frame has not needed it may fit
+    dropOlderThan(0);
+    if (!make(wanted)) return 0;
+  }
+  slots_.push_back(std::move(wanted));
+  return slots_.back().name();
+}
+
+bool Targets::make(Slot& slot) const {
+  gl::OwnErrors errors(gl_);
+  if (slot.format == gl::STENCIL_INDEX8) {
+    slot.stencil = gl::Renderbuffer(gl_);
+    gl_.BindRenderbuffer(gl::RENDERBUFFER, slot.stencil.name());
+    gl_.RenderbufferStorage(gl::RENDERBUFFER, slot.format, slot.size.width, slot.size.height);
+    return errors.take() != gl::OUT_OF_MEMORY;
+  }
+  const ResourceRow& row = rowOf(slot.resource);
+  const gl::Enum channels = slot.format == row.wide.internal ? row.wide.channels : row.narrow.channels;
+  slot.texture = gl::Texture(gl_);
+  gl_.ActiveTexture(gl::TEXTURE0);
+  gl_.BindTexture(gl::TEXTURE_2D, slot.texture.name());
+  gl_.TexParameteri(gl::TEXTURE_2D, gl::TEXTURE_MAX_LEVEL, 0);
+  gl_.TexImage2D(gl::TEXTURE_2D, 0, static_cast<gl::Int>(slot.format), slot.size.width, slot.size.height, 0, channels,
+                 gl::FLOAT, nullptr);
+  gl::label(gl_, gl::TEXTURE, slot.texture.name(), row.name);
+  return errors.take() != gl::OUT_OF_MEMORY;
+}
+
+void Targets::dropOlderThan(int age) {
+  for (const Slot& slot : slots_)
+    if (slot.age > age && slot.stencil)
+      framebuffers_.forgetStencil(slot.name());
+    else if (slot.age > age)
+      framebuffers_.forgetTexture(slot.name());
+  slots_.erase(std::remove_if(slots_.begin(), slots_.end(), [age](const Slot& slot) { return slot.age > age; }),
+               slots_.end());
+}
+
+void Targets::endFrame() {
+  dropOlderThan(kKeptFrames - 1);
+  for (Slot& slot : slots_)
+    ++slot.age;
+}
+
+void Targets::hold(const Extent& extent) {
+  for (Slot& slot : slots_) {
+    if (slot.stencil) continue;
+    const Size size = rowOf(slot.resource).size(extent);
+    if (size.width == slot.size.width && size.height == slot.size.height) slot.age = 0;
+  }
+}
+
+std::uint64_t Targets::bytes() const {
+  std::uint64_t sum = 0;
+  for (const Slot& slot : slots_)
+    sum += static_cast<std::uint64_t>(slot.size.width) * static_cast<std::uint64_t>(slot.size.height) *
+           static_cast<std::uint64_t>(slot.bytesPerTexel);
+  return sum;
+}
+
+} // namespace tyndall

@@ -1,0 +1,70 @@
+#include "reuse/Keys.h"
+
+#include <array>
+#include <cstring>
+#include <tuple>
+
+namespace tyndall {
+
+namespace {
+
+// A block has no padding: all of it is what shaders read.
+template <typename Block>
+std::array<std::uint32_t, sizeof(Block) / 4> wordsOf(const Block& block) {
+  std::array<std::uint32_t, sizeof(Block) / 4> words;
+  std::memcpy(words.data(), &block, sizeof block);
+  return words;
+}
+
+template <typename Block>
+bool same(const Block& a, const Block& b) {
+  return wordsOf(a) == wordsOf(b);
+}
+
+auto fieldsOf(const Settings& s) {
+  return std::tie(s.technique, s.debugView, s.shadowFilter, s.slices, s.samples, s.rowStep, s.minMaxTree,
+                  s.breakThreshold, s.bendThreshold, s.leastWeight, s.averageThreshold, s.spreadThreshold,
+                  s.lowRankTerms, s.sampleBudget);
+}
+
+auto fieldsOf(const LightVariant& v) {
+  return std::tie(v.lightKind, v.shadowViews, v.shadowArray, v.bilinear, v.glass, v.monochrome, v.composite);
+}
+
+bool isStated(std::uint64_t version, std::uint64_t last) { return version != 0 && version == last; }
+
+} // namespace
+
+bool isStated(const DepthContent& now, const DepthContent& last) {
+  return now.texture == last.texture && isStated(now.version, last.version);
+}
+
+bool isStated(const MapContent& now, const MapContent& last) {
+  return now.shadow == last.shadow && now.glassColour == last.glassColour && now.glassDepth == last.glassDepth &&
+         isStated(now.version, last.version);
+}
+
+DepthContent depthOf(const Frame& frame) { return {frame.depth.texture, frame.depth.version}; }
+
+MapContent mapsOf(const Light& light) {
+  return {light.shadow.texture, light.glass.colour, light.glass.depth, light.shadow.version};
+}
+
+namespace {
+
+bool same(const AvsmCurves& a, const AvsmCurves& b) {
+  return a.texture == b.texture && (a.texture == 0 || isStated(a.version, b.version));
+}
+
+} // namespace
+
+bool same(const LightKey& a, const LightKey& b) {
+  return same(a.curves, b.curves) && same(a.block, b.block) && fieldsOf(a.settings) == fieldsOf(b.settings) &&
+         a.map.width == b.map.width && a.map.height == b.map.height && fieldsOf(a.variant) == fieldsOf(b.variant);
+}
+
+bool sameFrame(const FrameKey& a, const FrameKey& b) {
+  return same(a.block, b.block) && fieldsOf(a.settings) == fieldsOf(b.settings) && a.drawn == b.drawn;
+}
+
+} // namespace tyndall

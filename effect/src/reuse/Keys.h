@@ -1,0 +1,50 @@
+// What a frame and its lights read, but for the content of textures, to be compared with the last frame's.
+#pragma once
+
+#include "CheckFrame.h"
+#include "SharedBlocks.h"
+#include "plan/LightVariant.h"
+
+#include <cstdint>
+#include <tyndall/tyndall.h>
+#include <vector>
+
+namespace tyndall {
+
+/// Which textures they are, and the version of what they hold: a version belongs to its texture.
+struct DepthContent {
+  gl::Uint texture = 0;
+  std::uint64_t version = 0;
+};
+struct MapContent {
+  gl::Uint shadow = 0, glassColour = 0, glassDepth = 0;
+  std::uint64_t version = 0;
+};
+
+DepthContent depthOf(const Frame& frame);
+MapContent mapsOf(const Light& light);
+
+/// True if the same textures are stated to hold the same.
+bool isStated(const DepthContent& now, const DepthContent& last);
+bool isStated(const MapContent& now, const MapContent& last);
+
+struct LightKey {
+  blocks::LightBlock block{};
+  Settings settings;
+  FrameTextures::Shadow map;
+  LightVariant variant;
+  AvsmCurves curves;
+};
+
+struct FrameKey {
+  blocks::FrameBlock block{};
+  Settings settings;
+  std::vector<std::size_t> drawn; ///< indices of the lights
+  std::vector<LightKey> lights;   ///< of those
+};
+
+bool same(const LightKey& a, const LightKey& b);
+/// But for the lights' own.
+bool sameFrame(const FrameKey& a, const FrameKey& b);
+
+} // namespace tyndall

@@ -1,0 +1,21 @@
+// Transmittance: of the stretch to the first surface, as a mean over a pixel's samples, without light. Reads the scene depth (image size).
+// Writes inscatter, 0, and transmittance: as the two sources of dual-source blending (COMPOSITE 1) or into two targets.
+#include "shared.glsl"
+#include "lib/camera.glsl"
+#include "lib/depthSamples.glsl"
+
+#if COMPOSITE
+layout(location = 0, index = 0) out vec4 outInscatter;
+layout(location = 0, index = 1) out vec4 outTransmittance;
+#else
+layout(location = 0) out vec4 outInscatter;
+layout(location = 1) out vec4 outTransmittance;
+#endif
+
+void main() {
+  vec3 transmittance = vec3(0.0);
+  for (int k = 0; k < depthSampleCount; ++k)
+    transmittance += exp(-extinction * sampleEndAt(gl_FragCoord.xy, k)) / float(depthSampleCount);
+  outInscatter = vec4(0.0);
+  outTransmittance = vec4(transmittance, 1.0);
+}

@@ -1,5 +1,0 @@
-// View samples: adds up the colours of the samples in each pixel. Writes view: image size, RGBA32F.
-flat in vec3 colour;
-layout(location = 0) out vec4 outColour;
-
-void main() { outColour = vec4(colour, 1.0); }
