@@ -1,6 +1,7 @@
 # Tests of adaptive volumetric shadow maps, for the executable that includes this file.
 set(TYNDALL_GL_AVSM_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/AvsmContextTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/AvsmFaultTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/AvsmRig.cpp
   ${CMAKE_CURRENT_LIST_DIR}/AvsmShaderTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/CaptureTest.cpp

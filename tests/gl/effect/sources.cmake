@@ -13,9 +13,16 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/EpipolePositionTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ExactTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FakeContext.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/FaultSweep.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/FaultTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/FaultyContext.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/FaultyContextTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/FrameCases.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameTexturesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameValuesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GlState.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/GlThunks.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/GpuWaits.cpp
   ${CMAKE_CURRENT_LIST_DIR}/HostileEngineTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/HostileRows.cpp
   ${CMAKE_CURRENT_LIST_DIR}/LowRankTest.cpp
@@ -24,16 +31,25 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/ReuseTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MemoryTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/NonFiniteTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/EngineErrorTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/KeptProgramsTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/PendingErrorTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/QueryTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/PrepareTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/ProgramStoreTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/RadianceTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/RefusalRig.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SceneRig.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ShaftRig.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SkipTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/StabilityTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/StateModeTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/StateTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/SteadyStateTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SymmetryTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/TreeTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/TrueLineTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/TurningCameraTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ViewBorderTest.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/ViewTest.cpp)
+  ${CMAKE_CURRENT_LIST_DIR}/ViewTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/VirtualPrograms.cpp)

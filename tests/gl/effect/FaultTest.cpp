@@ -1,0 +1,57 @@
+// Unless the status is Ok nothing was drawn: whichever call of a frame fails, alone or with all after it, colour,
+// outputs and GL state are as they were, and the next frame is right.
+#include "FaultSweep.h"
+#include "support/EffectRig.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tyndall;
+using tests::Fault;
+using tests::FaultyContext;
+using tests::Times;
+
+namespace {
+
+void checkAll(Fault kind) {
+  FaultyContext context;
+  int points = 0;
+  for (const tests::FrameCase& item : tests::frameCases()) {
+    if (!tests::canDraw(item)) continue;
+    CAPTURE(item.name);
+    tests::FaultSweep sweep(context, item);
+    for (const Times times : {Times::From, Times::Only})
+      for (const bool used : {false, true}) {
+        const tests::SweepOptions options{kind, times, used};
+        const tests::Findings findings = sweep.run(options);
+        points += findings.points();
+        if (!findings.empty()) FAIL_CHECK(item.name << ": " << nameOf(options) << findings.text());
+      }
+  }
+  CHECK(points > 0);
+}
+
+} // namespace
+
+TEST_CASE("faults: a shader that does not compile, whichever, draws nothing") { checkAll(Fault::Compile); }
+TEST_CASE("faults: a program that does not link, whichever, draws nothing") { checkAll(Fault::Link); }
+TEST_CASE("faults: a texture without memory, whichever, draws nothing") { checkAll(Fault::Texture); }
+TEST_CASE("faults: a renderbuffer without memory, whichever, draws nothing") { checkAll(Fault::Renderbuffer); }
+TEST_CASE("faults: a buffer without memory, whichever, draws nothing") { checkAll(Fault::Buffer); }
+TEST_CASE("faults: a framebuffer that is refused, whichever, draws nothing") { checkAll(Fault::Framebuffer); }
+
+TEST_CASE("a context that is watched for calls and faults draws what the context itself does") {
+  FaultyContext context;
+  for (const tests::FrameCase& item : tests::frameCases()) {
+    if (!tests::canDraw(item) || item.maxTextureSize > 0) continue;
+    CAPTURE(item.name);
+    tests::Stage stage(item);
+    const CreateResult created = context.create();
+    REQUIRE(created.effect);
+    for (int i = 0; i < 2; ++i) {
+      const tests::TargetContents watched = stage.draw(*created.effect);
+      CHECK(tests::bitEqual(watched, stage.draw(tests::testEffect())));
+      stage.advance();
+    }
+  }
+  CHECK(context.unknown().empty());
+}

@@ -1,0 +1,85 @@
+// Frames of every kind that the effect draws in another way, small: for tests that run many of each.
+#pragma once
+
+#include "ShaftRig.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tests {
+
+/// Which textures a frame is drawn into.
+struct FrameTargets {
+  bool colour = true, inscatter = false, transmittance = false;
+};
+
+/// What happens from a view's one frame to the next.
+enum class Motion { None, Box, Mesh };
+
+struct FrameCase {
+  std::string name;
+  tyndall::Technique technique = tyndall::Technique::Epipolar;
+  FrameTargets targets = {};
+  std::vector<tyndall::LightKind> lights = {tyndall::LightKind::Directional};
+  tyndall::DebugView view = tyndall::DebugView::Composite;
+  bool glass = false, bilinear = false, curves = false, spread = false, bright = false, multisampled = false,
+       versionedMesh = false;
+  tyndall::Changes changes = tyndall::Changes::Unknown;
+  Motion motion = Motion::None;
+  int before = 0; ///< frames of the view that were drawn before the one that is looked at
+  int refreshFrames = 0;
+  int maxTextureSize = 0; ///< of a FaultyContext: so little that a lamp's faces are marched one after the other
+};
+
+/// All that are told apart: techniques, targets, views, ways to reuse.
+const std::vector<FrameCase>& frameCases();
+
+/// The one of that name.
+const FrameCase& frameCase(const std::string& name);
+
+/// True if the context can draw it: curves need OpenGL 4.3.
+bool canDraw(const FrameCase& frameCase);
+
+/// Colour, inscatter and transmittance, as they are, wanted or not.
+using TargetContents = std::vector<std::vector<float>>;
+
+/// An engine with a frame of a case.
+class Stage {
+public:
+  static constexpr int kMapSize = 32;
+
+  explicit Stage(const FrameCase& frameCase, int width = 32, int height = 24);
+
+  tyndall::Frame& frame() { return rig_.scene.frame; }
+
+  /// Writes known values into all targets.
+  void fill();
+  TargetContents read() const;
+
+  /// Back to the view's first frame, of a view that no effect knows.
+  void rewind();
+
+  /// The view's next frame: what moves has moved.
+  void advance();
+
+  /// The next frame, in which nothing moves.
+  void rest();
+
+  /// Renders this frame into targets of known values; requires an Ok status.
+  TargetContents draw(tyndall::Effect& effect);
+
+private:
+  void show(int number);
+  tyndall::MovingObject reshape(int number);
+
+  FrameCase case_;
+  int width_, height_;
+  ShaftRig rig_;
+  std::vector<float> values_; ///< of a target that nothing was drawn into
+  int number_ = 0;
+  host::GlTexture colour_, inscatter_, transmittance_;
+  host::GlBuffer vertices_;
+};
+
+} // namespace tests

@@ -1,0 +1,184 @@
+// StateMode::Leave: the picture of StateMode::Restore whatever the engine leaves behind, and a state afterwards that is
+// as the header says: a table here, and all else untouched.
+#include "FrameCases.h"
+#include "GlState.h"
+#include "support/TestContext.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tyndall;
+using tests::Stage;
+
+namespace {
+
+// What a row of the state is when an effect that leaves it has drawn.
+struct LeftRow {
+  const char* name; ///< of rows in GlState.cpp, with or without an index; how they begin if it ends in ' ' or '['
+  bool anything;    ///< not said
+  std::vector<double> values;
+};
+
+// Capabilities, bindings and masks as a full-screen triangle needs them; the rest of what is set is not said.
+const std::vector<LeftRow>& leftRows() {
+  static const std::vector<LeftRow> all = [] {
+    std::vector<LeftRow> rows = {
+        {"program", false, {0}},
+        {"vertex array", false, {0}},
+        {"draw framebuffer", false, {0}},
+        {"renderbuffer", false, {0}},
+        {"active texture", false, {GL_TEXTURE0}},
+        {"uniform buffer", false, {0}},
+        {"pixel unpack buffer", false, {0}},
+        {"polygon mode", false, {GL_FILL}},
+        {"clip origin", false, {GL_LOWER_LEFT}},
+        {"clip depth mode", false, {GL_NEGATIVE_ONE_TO_ONE}},
+        {"colour mask", false, {1, 1, 1, 1}},
+        {"blend[", false, {0}},
+        {"blend", false, {0}},
+        {"unpack alignment", false, {4}},
+        {"viewport", true, {}},
+        {"blend ", true, {}}, // factors and equations
+        {"stencil func", true, {}},
+        {"stencil ref", true, {}},
+        {"stencil value mask", true, {}},
+        {"stencil write mask", true, {}},
+        {"stencil fail", true, {}},
+        {"stencil pass", true, {}},
+        {"stencil depth fail", true, {}},
+        {"stencil back ", true, {}},
+        {"unit ", true, {}}, // of textures and samplers
+        {"uniform binding ", true, {}},
+    };
+    for (const char* off :
+         {"cull face",       "depth test",        "stencil test",       "scissor test",     "scissor[",
+          "dither",          "logic op",          "rasterizer discard", "framebuffer sRGB", "sample mask",
+          "sample coverage", "alpha to coverage", "alpha to one",       "polygon smooth",   "clip distance ",
+          "unpack skip ",    "unpack swap bytes", "unpack row length",  "unpack LSB first", "unpack image height"})
+      rows.push_back({off, false, {0}});
+    return rows;
+  }();
+  return all;
+}
+
+// The row that says most of a name; null if it is to be as it was.
+const LeftRow* leftRow(const std::string& name) {
+  const LeftRow* best = nullptr;
+  for (const LeftRow& row : leftRows()) {
+    const std::string start = row.name;
+    const bool begins = start.back() == ' ' || start.back() == '[';
+    const bool matches = begins ? name.rfind(start, 0) == 0 : name == start || name.rfind(start + "[", 0) == 0;
+    if (matches && (!best || start.size() > std::string(best->name).size())) best = &row;
+  }
+  return best;
+}
+
+// Names of the rows that are not as said; empty if all are.
+std::string wrongRows(const tests::GlState& before, const tests::GlState& after) {
+  std::string names;
+  for (const auto& [name, values] : after) {
+    const LeftRow* row = leftRow(name);
+    if (row && row->anything) continue;
+    std::vector<double> expected = row ? row->values : before.at(name);
+    if (expected.size() > values.size()) expected.resize(values.size()); // polygon mode: one of two
+    if (values != expected) names += name + ", ";
+  }
+  return names;
+}
+
+std::unique_ptr<Effect> newEffect(StateMode state) {
+  Config config;
+  config.loader = tests::testContext().loader();
+  config.state = state;
+  CreateResult created = Effect::create(config);
+  INFO(created.status.message);
+  REQUIRE(created.effect);
+  return std::move(created.effect);
+}
+
+// A view's frames, each drawn into a poisoned state.
+std::vector<tests::TargetContents> drawPoisoned(Stage& stage, StateMode mode) {
+  const std::unique_ptr<Effect> effect = newEffect(mode);
+  std::vector<tests::TargetContents> pictures;
+  stage.rewind();
+  for (int i = 0; i < 3; ++i) {
+    stage.fill();
+    Status status;
+    {
+      const tests::Poison poison;
+      const tests::GlState before = tests::captureGlState();
+      status = effect->render(stage.frame());
+      const tests::GlState after = tests::captureGlState();
+      tests::Poison::lift();
+      if (mode == StateMode::Leave)
+        CHECK(wrongRows(before, after) == "");
+      else
+        CHECK((before == after)); // without a print of either
+    }
+    INFO(status.message);
+    REQUIRE(status);
+    pictures.push_back(stage.read());
+    stage.advance();
+  }
+  return pictures;
+}
+
+constexpr const char* kCases[] = {"epipolar",
+                                  "epipolar, two lights, all targets",
+                                  "epipolar, both outputs",
+                                  "epipolar, spread",
+                                  "epipolar, bilinear and glass",
+                                  "tree, two lights, all targets",
+                                  "exact, two lights",
+                                  "exact, lamp, all targets",
+                                  "low rank",
+                                  "view 1",
+                                  "view 6",
+                                  "view 9",
+                                  "detect, first frame",
+                                  "objects, first frame",
+                                  "objects, redrawn, first frame"};
+
+} // namespace
+
+TEST_CASE("a state that is left draws what one that is given back does, and is as the header says") {
+  tests::testContext();
+  for (const char* name : kCases) {
+    CAPTURE(name);
+    Stage stage(tests::frameCase(name));
+    const std::vector<tests::TargetContents> expected = drawPoisoned(stage, StateMode::Restore);
+    const std::vector<tests::TargetContents> left = drawPoisoned(stage, StateMode::Leave);
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      CAPTURE(i);
+      CHECK(tests::bitEqual(left[i][0], expected[i][0]));
+      CHECK(tests::bitEqual(left[i][1], expected[i][1]));
+      CHECK(tests::bitEqual(left[i][2], expected[i][2]));
+    }
+  }
+}
+
+TEST_CASE("a state that is left: an engine that sets its own state between frames sees its own pictures only") {
+  Stage stage(tests::frameCase("epipolar, two lights, all targets"));
+  const std::unique_ptr<Effect> leaves = newEffect(StateMode::Leave), restores = newEffect(StateMode::Restore);
+  const tests::TargetContents expected = stage.draw(*restores);
+  for (int i = 0; i < 3; ++i)
+    for (Effect* effect : {leaves.get(), restores.get()}) {
+      CAPTURE(i, effect == leaves.get());
+      const tests::TargetContents drawn = stage.draw(*effect); // without a clean state between
+      CHECK(tests::bitEqual(drawn[0], expected[0]));
+    }
+  tests::Poison::lift();
+}
+
+TEST_CASE("a state that is left: a frame that is refused leaves all as it was") {
+  Stage stage(tests::frameCase("epipolar"));
+  const std::unique_ptr<Effect> effect = newEffect(StateMode::Leave);
+  Frame broken = stage.frame();
+  broken.width = 0;
+  const tests::Poison poison;
+  const tests::GlState before = tests::captureGlState();
+  const Status status = effect->render(broken);
+  const tests::GlState after = tests::captureGlState();
+  tests::Poison::lift();
+  CHECK(status.code == StatusCode::InvalidFrame);
+  CHECK((before == after));
+}
