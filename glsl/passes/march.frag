@@ -1,8 +1,11 @@
 // March: inscatter of one light, through the shadow views of a draw, along a slice's row and its tree: at the regular march samples, the
 // first of each segment; or, isImage, of every pixel or every pixel that unwarp left, by its nearest slice (Chen 2011).
 // Reads slice table, row textures and sampleEnds or the scene depth. Writes marched: slices x segments, light as
-// lib/stored.glsl says, R32F (grey) or RGBA16F, added up over the draws, in parts only changedSegments: there the second
-// source says how much of what is there stays, since a discard would keep pixels from being tested by the stencil before they are shaded; or as exact.frag does.
+// lib/stored.glsl says, R32F (grey) or RGBA16F, added up over the draws, in parts only changedSegments; or as exact.frag does.
+#ifdef GL_ARB_shader_image_load_store
+#extension GL_ARB_shader_image_load_store : enable
+layout(early_fragment_tests) in; // its discard is no reason to shade pixels that the stencil of the fix-up keeps out
+#endif
 #define ROW_CURVES
 #define PHASE_APART
 #include "shared.glsl"
@@ -54,11 +57,10 @@ void main() {
   Target target = pixelTarget();
   if (isImage == 0) target = sampleTarget();
   Ray ray = cameraRay(target.position);
+  if (!target.marched) discard;
   float end = target.marched ? max(target.end, 0.0) : 0.0;
   Light light = rowShadowedLight(ray, 0.0, end, target.slice);
-  outInscatter = target.marched ? vec4(storedLight(light, ray), 0.0) : vec4(0.0);
-  outTransmittance = vec4(target.marched ? 0.0 : 1.0);
-  if (isImage == 0) return;
-  outInscatter = vec4(min(lightColour * phaseOf(ray) * vec3(light), vec3(lightCeiling)), 0.0);
+  outInscatter = vec4(storedLight(light, ray), 0.0);
+  if (isImage != 0) outInscatter = vec4(min(lightColour * phaseOf(ray) * vec3(light), vec3(lightCeiling)), 0.0);
   outTransmittance = vec4(transmittanceTo(end), 1.0);
 }

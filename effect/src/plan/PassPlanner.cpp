@@ -160,8 +160,6 @@ Blend PassPlanner::blendOf(Joining joining, bool adds) const {
   switch (joining) {
   case Joining::SumOfDraws:
     return drawIndex == 0 ? Blend::Replace : Blend::AddAll;
-  case Joining::SumOfDrawsOrKeep:
-    return drawnSlices ? Blend::DualSource : blendOf(Joining::SumOfDraws, adds);
   case Joining::SumOfLights:
     return adds || !firstLight || drawIndex > 0 ? Blend::Add
            : destination.direct()               ? Blend::DualSource

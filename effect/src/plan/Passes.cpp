@@ -177,7 +177,7 @@ std::vector<PassRow> makeRows() {
           .reads({R::SceneDepth, R::SliceTable, R::SampleEnds})
           .walksRows()
           .writes({R::Marched})
-          .joins(Joining::SumOfDrawsOrKeep),
+          .joins(kSumOfDraws),
       Row(Pass::SliceSums, "slice sums", "passes/meanLight.frag")
           .reads({R::SliceTable, R::Marched})
           .writes({R::SliceSums})

@@ -93,9 +93,8 @@ enum class Into {
 /// How a pass's outputs join what is there.
 enum class Joining {
   Replace,
-  SumOfDraws,       ///< the first of a light's draws replaces, the others add
-  SumOfDrawsOrKeep, ///< the same; in parts the second source says how much stays of what is there
-  SumOfLights,      ///< the frame's first draw replaces, or blends into colour, the others add
+  SumOfDraws,  ///< the first of a light's draws replaces, the others add
+  SumOfLights, ///< the frame's first draw replaces, or blends into colour, the others add
   AddAll,
   BlendIntoColour, ///< colour * transmittance + inscatter
   OverwriteRgb,    ///< alpha stays

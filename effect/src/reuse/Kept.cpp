@@ -13,8 +13,8 @@ void KeptEye::makeRoomFor(std::size_t count) {
 void KeptEye::take(const Frame& frame, std::optional<KeptNext> next) {
   std::vector<bool> drawn(lights.size());
   if (next)
-    for (auto& [index, slices] : next->lights) {
-      lights[index]->last = std::move(slices);
+    for (const auto& [index, slices] : next->lights) {
+      lights[index]->last = slices;
       drawn[index] = true;
     }
   for (std::size_t i = 0; i < lights.size(); ++i) {

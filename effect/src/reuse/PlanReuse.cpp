@@ -152,7 +152,7 @@ void FramePlanner::planRedrawn(bool comparesEnds, bool comparesRows) {
     LightRedraw part{drawn[i].index, redraw.key.lights[i], mapsOf(light),
                      Redraw::Part,   comparesEnds,         comparesRows && light.shadow.texture != 0};
     eye.lights[part.index]->last = carriedOver(*eye.lights[part.index], part);
-    redraw.lights.push_back(std::move(part));
+    redraw.lights.push_back(part);
   }
   planReused(drawn, std::move(redraw));
 }
