@@ -1,5 +1,6 @@
 # Writes OUTPUT, a C++ file that holds every shader of SHADERS (names relative to ROOT) with its #include lines resolved,
-# each file at most once per shader, and without lines of comments: C++ promises no more than 65,536 characters.
+# each file at most once per shader, and without lines of comments. A text is kept in pieces that every compiler takes as a
+# literal: C++ promises 65,536 characters, adjacent ones joined, and MSVC takes 16,380.
 # Those of public/ are written to the directory PUBLIC, too, with their comments, for engines that read files.
 # Run as a script: cmake -DROOT=… -DOUTPUT=… -DPUBLIC=… "-DSHADERS=a;b" -P EmbedShaders.cmake
 cmake_minimum_required(VERSION 3.22)
@@ -22,7 +23,25 @@ function(resolve file result included_list)
   set(${included_list} ${included} PARENT_SCOPE)
 endfunction()
 
-set(code "// Generated from glsl/ by EmbedShaders.cmake.\n#include \"gl/ShaderSources.h\"\n\n#include <cstring>\n\nnamespace tyndall {\nnamespace {\nstruct Entry {\n  const char* name;\n  const char* text;\n};\nconstexpr Entry kEntries[] = {\n")
+# Appends TEXT to the caller's `code` as literals of at most LONGEST bytes, each of whole lines.
+function(append_literals text)
+  set(longest 12000)
+  string(LENGTH "${text}" length)
+  while(length GREATER longest)
+    string(SUBSTRING "${text}" 0 ${longest} piece)
+    string(FIND "${piece}" "\n" end REVERSE)
+    math(EXPR end "${end} + 1")
+    string(SUBSTRING "${text}" 0 ${end} piece)
+    string(SUBSTRING "${text}" ${end} -1 text)
+    string(APPEND code "    R\"glsl(${piece})glsl\",\n")
+    string(LENGTH "${text}" length)
+  endwhile()
+  string(APPEND code "    R\"glsl(${text})glsl\",\n")
+  set(code "${code}" PARENT_SCOPE)
+endfunction()
+
+set(code "// Generated from glsl/ by EmbedShaders.cmake.\n#include \"gl/ShaderSources.h\"\n\nnamespace tyndall {\nnamespace {\n")
+string(APPEND code "\n// Each shader: its name, the pieces of its text, null.\nconstexpr const char* kShaders[] = {\n")
 foreach(shader IN LISTS SHADERS)
   set(seen "")
   resolve("${shader}" text seen)
@@ -30,9 +49,27 @@ foreach(shader IN LISTS SHADERS)
     file(WRITE "${PUBLIC}/${CMAKE_MATCH_1}" "${text}")
   endif()
   string(REGEX REPLACE "\n *//[^\n]*" "" text "${text}")
-  string(APPEND code "    {\"${shader}\", R\"glsl(${text})glsl\"},\n")
+  string(APPEND code "    \"${shader}\",\n")
+  append_literals("${text}")
+  string(APPEND code "    nullptr,\n")
 endforeach()
-string(APPEND code "};\n} // namespace\n\nconst char* shaderSource(const char* name) {\n  for (const Entry& entry : kEntries)\n    if (std::strcmp(entry.name, name) == 0) return entry.text;\n  return nullptr;\n}\n\n} // namespace tyndall\n")
+string(APPEND code [[
+};
+} // namespace
+
+std::string shaderSource(const std::string& name) {
+  std::string text;
+  bool found = false;
+  for (std::size_t i = 0; i < sizeof(kShaders) / sizeof(kShaders[0]) && !found; ++i) {
+    found = name == kShaders[i];
+    for (++i; kShaders[i] != nullptr; ++i)
+      if (found) text += kShaders[i];
+  }
+  return text;
+}
+
+} // namespace tyndall
+]])
 file(WRITE "${OUTPUT}.new" "${code}")
 file(COPY_FILE "${OUTPUT}.new" "${OUTPUT}" ONLY_IF_DIFFERENT)
 file(REMOVE "${OUTPUT}.new")

@@ -14,7 +14,7 @@ namespace {
 
 std::set<std::string> samplersOf(const std::string& file) {
   static const std::regex kSampler("uniform\\s+[iu]?sampler\\w+\\s+(\\w+)\\s*;");
-  const std::string text = shaderSource(file.c_str());
+  const std::string text = shaderSource(file);
   std::set<std::string> names;
   for (std::sregex_iterator at(text.begin(), text.end(), kSampler), end; at != end; ++at)
     names.insert((*at)[1]);

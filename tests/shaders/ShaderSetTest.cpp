@@ -31,7 +31,7 @@ TEST_CASE("a definition inside a longer word does not make another program") {
   for (const gl::Variant& variant : allVariants()) {
     const gl::Definitions mentioned = gl::mentioned(variant);
     if (mentioned.empty()) continue;
-    const std::string text = std::string(shaderSource(variant.fragment.c_str())) + shaderSource(variant.vertex.c_str());
+    const std::string text = shaderSource(variant.fragment) + shaderSource(variant.vertex);
     static std::map<std::string, std::set<std::string>> known;
     std::set<std::string>& found = known[variant.fragment + variant.vertex];
     if (found.empty())

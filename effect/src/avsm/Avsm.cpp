@@ -411,8 +411,19 @@ Status avsmDepth(const Light& light, int view, std::array<double, 4>& depth) {
   return {};
 }
 
-const char* avsmCaptureSource() { return shaderSource("public/avsmCapture.glsl"); }
-const char* avsmInsertSource() { return shaderSource("public/avsmInsert.glsl"); }
-const char* avsmLookupSource() { return shaderSource("public/avsmLookup.glsl"); }
+const char* avsmCaptureSource() {
+  static const std::string text = shaderSource("public/avsmCapture.glsl");
+  return text.c_str();
+}
+
+const char* avsmInsertSource() {
+  static const std::string text = shaderSource("public/avsmInsert.glsl");
+  return text.c_str();
+}
+
+const char* avsmLookupSource() {
+  static const std::string text = shaderSource("public/avsmLookup.glsl");
+  return text.c_str();
+}
 
 } // namespace tyndall

@@ -33,13 +33,13 @@ Definitions mentionedBy(const std::string& text, const Definitions& definitions)
 }
 
 Definitions mentioned(const Variant& variant) {
-  std::string text = shaderSource(variant.fragment.c_str());
-  if (!variant.vertex.empty()) text += shaderSource(variant.vertex.c_str());
+  std::string text = shaderSource(variant.fragment);
+  if (!variant.vertex.empty()) text += shaderSource(variant.vertex);
   return mentionedBy(text, variant.definitions);
 }
 
 std::string completeSource(const std::string& file, const Definitions& definitions) {
-  const std::string body = shaderSource(file.c_str());
+  const std::string body = shaderSource(file);
   std::string text = isCompute(file) ? "#version 430 core\n" : "#version 330 core\n";
   text += "#define UNIFORM_BLOCK(name) layout(std140) uniform name\n";
   for (const auto& [name, value] : mentionedBy(body, definitions))
