@@ -12,6 +12,8 @@
 #define TYNDALL_GLAPI
 #endif
 
+struct __GLsync; // NOLINT(bugprone-reserved-identifier): the name that GL's headers give it, part of functions' types
+
 namespace tyndall::gl {
 
 using Enum = std::uint32_t;
@@ -26,7 +28,7 @@ using Intptr = std::ptrdiff_t;
 using Sizeiptr = std::ptrdiff_t;
 using Int64 = std::int64_t;
 using Uint64 = std::uint64_t;
-using Sync = void*;
+using Sync = ::__GLsync*;
 
 // X(result, name, arguments, state): state names the row of StateGuard that gives back what the function changes, None
 // for functions that change nothing of the engine's (queries, draws into our targets, objects of our own).
