@@ -66,10 +66,10 @@ std::vector<FrameStatistics> renderFrames(const Options& options, const std::vec
 
 /// The frames that are to be drawn, fewer than all where it resumes.
 std::vector<int> framesToDraw(const Options& options) {
-  const std::vector<int> frames = framesOf(options);
-  if (!options.resume) return frames;
-  const std::vector<int> missing = missingFrames(options);
-  host::say(fmt::format("{} of {} frames are whole and stay", frames.size() - missing.size(), frames.size()));
+  if (!options.resume) return framesOf(options);
+  std::vector<int> missing = missingFrames(options);
+  const std::size_t count = framesOf(options).size();
+  host::say(fmt::format("{} of {} frames are whole and stay", count - missing.size(), count));
   return missing;
 }
 

@@ -70,7 +70,7 @@ drawn_of() { # how many EXRs there are of a task's share
   find out/frames -name '[0-9]*.exr' 2>/dev/null | sed 's/.*\///; s/^0*\(.\)/\1/; s/\.exr//' |
     awk -v tasks=$tasks -v task="$1" '$1 % tasks == task - 1' | wc -l
 }
-is_midway() { [ "$(drawn_of "$1")" -ge 2 ]; }
+is_midway() { [ "$(drawn_of "$1")" -ge $((frames / tasks / 3)) ]; }
 is_killable() { is_midway "$1" && [ "$(drawn_of "$1")" -lt $((frames / tasks)) ]; }
 state_of() { scontrol show job "$1" | sed -n 's/.*JobState=\([A-Z]*\).*/\1/p'; }
 is_requeued() { scontrol show job "$1" | grep -q 'Restarts=1' && [ "$(state_of "$1")" = PENDING ]; }
