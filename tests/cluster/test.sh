@@ -2,8 +2,9 @@
 # samples/cluster on a real Slurm: an animation with two tasks killed has the frames of one plain run, bit for bit.
 #   test.sh BIN_FOLDER SCENE [FRAMES [SIZE]]
 # Exit status 77: skipped, since a package is missing.
+# shellcheck disable=SC2030,SC2031 # what is set for one command in a subshell is meant to end there
 set -eu
-bin=$(cd "$1" && pwd) scene=$2 frames=${3:-24} size=${4:-160x90}
+bin=$(cd "$1" && pwd) scene=$(realpath "$2") frames=${3:-24} size=${4:-160x90}
 here=$(cd "$(dirname "$0")" && pwd)
 cluster=$(cd "$here/../../samples/cluster" && pwd)
 # shellcheck source=tests/cluster/slurm.sh
