@@ -62,15 +62,8 @@ void checkTarget(const std::filesystem::path& target) {
 class TemporaryFile {
 public:
   explicit TemporaryFile(const std::filesystem::path& target) {
-    static int count = 0;
-    const std::string name = ".tyndall-" + std::to_string(getpid()) + "-" + std::to_string(count++) + ".part";
-    path_ = target.parent_path() / name;
-    setUnfinished(path_);
-    const int descriptor = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); // less the umask
-    if (descriptor < 0) {
-      clearUnfinished();
-      throw Error(reasonOf(errno));
-    }
+    const int descriptor = create(target.parent_path());
+    if (descriptor < 0) throw Error(reasonOf(errno));
     struct stat status {};
     if (stat(target.c_str(), &status) == 0) {
       // Only root can give a file away: where that fails, it is the writer's.
@@ -94,6 +87,27 @@ public:
   }
 
 private:
+  /// The descriptor, or -1. Another machine's process, or one that was killed, may have had this one's number: names
+  /// that are taken are passed over.
+  int create(const std::filesystem::path& folder) {
+    constexpr int kMostTaken = 10000;
+    static int count = 0;
+    int descriptor = -1;
+    sigset_t all, before; // no signal comes between a file and its being known as unfinished
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, &before);
+    for (int attempt = 0; attempt < kMostTaken; ++attempt) {
+      path_ = folder / (".tyndall-" + std::to_string(getpid()) + "-" + std::to_string(count++) + ".part");
+      descriptor = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); // less the umask
+      if (descriptor >= 0 || errno != EEXIST) break;
+    }
+    if (descriptor >= 0) setUnfinished(path_);
+    const int error = errno;
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    errno = error;
+    return descriptor;
+  }
+
   std::filesystem::path path_;
 };
 

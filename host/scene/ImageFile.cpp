@@ -6,6 +6,7 @@
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <png.h>
@@ -19,7 +20,8 @@ namespace host {
 namespace {
 
 constexpr std::uint64_t kMaxExrBytes = 4096ULL << 20; // decoded
-constexpr std::size_t kMaxChannelName = 255;          // of the EXR format
+constexpr std::uint64_t kMaxPngBytes = 4096ULL << 20;
+constexpr std::size_t kMaxChannelName = 255; // of the EXR format
 
 std::size_t pixelCount(int width, int height) {
   return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -190,6 +192,27 @@ void writePng(const std::filesystem::path& file, int width, int height, const st
     image.format = PNG_FORMAT_RGB;
     if (png_image_write_to_file(&image, temporary.c_str(), 0, rgb8.data(), 0, nullptr) == 0) throw Error(image.message);
   });
+}
+
+bool isWholePng(const std::filesystem::path& file, int width, int height) {
+  constexpr std::array<std::uint8_t, 12> kEnd = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
+  std::vector<std::uint8_t> bytes;
+  try {
+    bytes = readFile(file, kMaxPngBytes);
+  } catch (const Error&) {
+    return false;
+  }
+  if (bytes.size() < kEnd.size() || !std::equal(kEnd.rbegin(), kEnd.rend(), bytes.rbegin())) return false;
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) return false;
+  const bool isSize =
+      image.width == static_cast<png_uint_32>(width) && image.height == static_cast<png_uint_32>(height);
+  image.format = PNG_FORMAT_RGB;
+  std::vector<std::uint8_t> rgb8(isSize ? PNG_IMAGE_SIZE(image) : 0);
+  const bool isRead = isSize && png_image_finish_read(&image, nullptr, rgb8.data(), 0, nullptr) != 0;
+  png_image_free(&image);
+  return isRead && image.warning_or_error == 0;
 }
 
 std::vector<std::uint8_t> toneMap(const float* rgb, int width, int height, float exposure, int supersample) {

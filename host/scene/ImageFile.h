@@ -35,6 +35,9 @@ Image readExr(const std::filesystem::path& file);
 /// 8-bit sRGB, three bytes a pixel, row 0 on top. Throws Error.
 void writePng(const std::filesystem::path& file, int width, int height, const std::vector<std::uint8_t>& rgb8);
 
+/// Whether the file is a PNG of this size that can be read to its end.
+bool isWholePng(const std::filesystem::path& file, int width, int height);
+
 /// Linear radiance, three floats a pixel, to sRGB bytes in the same order: exposure, a filmic curve, the sRGB transfer
 /// function. Hues hold while highlights fade to white. A pixel with a NaN becomes magenta.
 /// The result has width x height pixels, each the mean of supersample x supersample pixels of `rgb` after the curve, as

@@ -38,6 +38,11 @@ Views
   with --technique tree, lowrank or epipolar slices and node-visits (black 0 to white 1023, ticks at 4, 16, 64, 256); with
   epipolar samples, breaks, march-samples and fixup-pixels. tyndall.h explains the colours. All but composite and
   inscatter go into the PNG without tone mapping.
+Shares
+  Several runs draw one animation: --share 1/3, 2/3 and 3/3, at once or not, write what one run with --no-reuse does, bit
+  for bit. The exposure is that of the first of --frames in each. With --resume a run goes on where one was ended: a
+  picture is whole if all of it can be read and its size and channels are those asked for; options are not compared.
+  --missing prints "3-7,12", say, and ends with 1, or prints nothing and ends with 0.
 Program cache
   Linked programs are kept in $XDG_CACHE_HOME/tyndall/programs, ~/.cache/tyndall/programs by default, at most 64 MiB:
   what was not used for the longest time goes. Where that folder cannot be written, none are kept.
@@ -49,10 +54,10 @@ struct Typed {
   std::string scene, camera, eye, target, fov, sun, size, supersample, profile, technique, view, slices, samples,
       rowStep, tree, breakThreshold, bendThreshold, leastWeight, averageThreshold, spreadThreshold, lowRankTerms,
       sampleBudget, cascadeFade, filter, medium, shadowSize, avsmSize, avsmNodes, cascades, frames, repeat, context,
-      stats, exposure;
+      stats, exposure, share;
   std::vector<std::string> out;
   bool reversedDepth = false, noReuse = false, noAvsm = false, noProgramCache = false, detectChanges = false,
-       strict = false;
+       strict = false, resume = false, missing = false;
 };
 
 double parseFinite(const std::string& option, const std::string& value, const std::string& part) {
@@ -105,6 +110,36 @@ FrameRange parseFrames(const std::string& value) {
   const auto last = parseWhole<int>(parts[1]);
   if (!first || !last || *first < 0 || *last < *first || *last > kMaxFrame) failUsage("--frames", value, rule);
   return {*first, *last};
+}
+
+Share parseShare(const std::string& value) {
+  const std::vector<std::string> parts = split(value, '/');
+  const std::string rule = fmt::format("must be K/N, 1 <= K <= N <= {}", kMaxFrame + 1);
+  if (parts.size() != 2) failUsage("--share", value, rule);
+  const auto index = parseWhole<int>(parts[0]);
+  const auto count = parseWhole<int>(parts[1]);
+  if (!index || !count || *index < 1 || *count < *index || *count > kMaxFrame + 1) failUsage("--share", value, rule);
+  return {*index, *count};
+}
+
+// What is kept of the frame before is so only to rounding: where frames are left out, each is drawn by itself.
+void readFrames(const Typed& typed, Options& options) {
+  if (!typed.frames.empty()) options.frames = parseFrames(typed.frames);
+  if (!typed.share.empty()) {
+    if (typed.frames.empty()) failUsage("--share", typed.share, "needs --frames");
+    options.share = parseShare(typed.share);
+  }
+  options.resume = typed.resume;
+  options.missing = typed.missing;
+  for (const auto& [option, given] : {std::pair("--resume", typed.resume), std::pair("--missing", typed.missing)}) {
+    if (given && typed.out.empty()) failUsage(option, "given", "needs --out");
+    if (given && !typed.stats.empty()) failUsage(option, "given", "cannot go with --stats");
+  }
+  const bool leavesOut = options.share || options.resume;
+  if (typed.detectChanges && (typed.noReuse || leavesOut))
+    failUsage("--detect-changes", "given", "cannot go with --no-reuse, --share or --resume");
+  if (options.frames && !typed.noReuse && !leavesOut && !options.repeat)
+    options.changes = typed.detectChanges ? tyndall::Changes::Detect : tyndall::Changes::Objects;
 }
 
 void readView(const Typed& typed, Options& options) {
@@ -251,6 +286,10 @@ void addOptions(CLI::App& app, Typed& typed) {
   app.add_flag("--no-avsm", typed.noAvsm, "smoke and strands cast no shadows");
   app.add_flag("--reversed-depth", typed.reversedDepth, "camera and shadow depth fall from 1 to 0");
   app.add_option("--frames", typed.frames, "frames of the animation, at 24 a second")->type_name("A-B");
+  app.add_option("--share", typed.share, "of these frames only every N-th from the K-th on, each drawn in full")
+      ->type_name("K/N");
+  app.add_flag("--resume", typed.resume, "leave frames whose pictures are whole as they are, draw the others in full");
+  app.add_flag("--missing", typed.missing, "draw nothing: print which frames' pictures are not there or not whole");
   app.add_flag("--no-reuse", typed.noReuse, "draw every frame in full, not only what has moved since the last one");
   app.add_flag("--detect-changes", typed.detectChanges, "find what has moved by comparison, not by the scene's nodes");
   app.add_option("--repeat", typed.repeat, "after a warm-up, time N renders of each frame, in full")->type_name("N");
@@ -275,10 +314,7 @@ Options fromTyped(const Typed& typed) {
   readSize(typed.size, typed.supersample, options);
   readQuality(typed, options);
   if (!typed.medium.empty()) options.medium = typed.medium;
-  if (!typed.frames.empty()) options.frames = parseFrames(typed.frames);
-  if (typed.noReuse && typed.detectChanges) failUsage("--detect-changes", "given", "cannot go with --no-reuse");
-  if (options.frames && !typed.noReuse && !options.repeat)
-    options.changes = typed.detectChanges ? tyndall::Changes::Detect : tyndall::Changes::Objects;
+  readFrames(typed, options);
   if (!typed.noProgramCache) options.programs = host::programFolder();
   options.context = parseContext("--context", typed.context);
   readOutputs(typed, options);
@@ -292,6 +328,15 @@ Options fromTyped(const Typed& typed) {
 }
 
 } // namespace
+
+std::vector<int> framesOf(const Options& options) {
+  const FrameRange range = options.frames.value_or(FrameRange{});
+  const Share share = options.share.value_or(Share{});
+  std::vector<int> frames;
+  for (int frame = range.first + share.index - 1; frame <= range.last; frame += share.count)
+    frames.push_back(frame);
+  return frames;
+}
 
 Options parseOptions(int argc, const char* const* argv) {
   Typed typed;

@@ -28,6 +28,12 @@ struct FrameRange {
   int count() const { return last - first + 1; }
 };
 
+/// Every `count`-th frame, from the `index`-th on; counted from 1.
+struct Share {
+  int index = 1;
+  int count = 1;
+};
+
 struct Options {
   std::filesystem::path scene;
   std::optional<int> camera;
@@ -56,6 +62,9 @@ struct Options {
   int avsmNodes = 8;
   bool reversedDepth = false;       ///< of camera and shadow maps, with clip depth from 0 to 1
   std::optional<FrameRange> frames; ///< none: frame 0, and one object in the statistics instead of a list
+  std::optional<Share> share;       ///< none: all of the frames
+  bool resume = false;              ///< whether frames whose files are whole stay as they are
+  bool missing = false;             ///< whether to draw nothing, and name the frames that are not
   tyndall::Changes changes = tyndall::Changes::Unknown; ///< how frames after the first reuse what they can
   std::optional<int> repeat;                            ///< none: render once, without a warm-up
   std::optional<std::filesystem::path> programs;        ///< where linked programs are kept; none: all are compiled
@@ -69,6 +78,9 @@ struct Options {
 /// Pixels per side that are rendered.
 inline int renderedWidth(const Options& options) { return options.width * options.supersample; }
 inline int renderedHeight(const Options& options) { return options.height * options.supersample; }
+
+/// The numbers of the share's frames; 0 for a picture that is none of an animation's.
+std::vector<int> framesOf(const Options& options);
 
 /// Throws UsageError or Answer (CommandLine.h).
 Options parseOptions(int argc, const char* const* argv);

@@ -9,9 +9,8 @@ namespace render {
 OutputNames::OutputNames(const Options& options) {
   taken_[host::identityOf(options.scene)] = "the scene";
   if (options.medium) taken_[host::identityOf(*options.medium)] = "the medium";
-  const FrameRange range = options.frames.value_or(FrameRange{});
   for (const std::filesystem::path& pattern : options.out)
-    for (int frame = range.first; frame <= range.last; ++frame)
+    for (const int frame : framesOf(options))
       add("--out", nameOfFrame(pattern, frame));
   if (options.stats) add("--stats", *options.stats);
 }

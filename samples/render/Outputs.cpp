@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <scene/Error.h>
 #include <scene/FileIo.h>
 #include <scene/ImageFile.h>
 
@@ -23,6 +24,15 @@ std::vector<float> topDownRgb(const std::vector<float>& bottomUpRgba, int width,
       rgb.insert(rgb.end(), pixel, pixel + 3);
     }
   return rgb;
+}
+
+bool isPng(const std::filesystem::path& file) {
+  return std::tolower(static_cast<unsigned char>(file.extension().string().at(1))) == 'p';
+}
+
+/// Radiance takes the film curve; the colours of the other views mean numbers.
+bool isRadiance(const Options& options) {
+  return options.view == tyndall::DebugView::Composite || options.view == tyndall::DebugView::Inscatter;
 }
 
 host::Image imageOf(const Picture& picture, int width, int height) {
@@ -113,18 +123,34 @@ float exposureOf(const Picture& picture) {
   return static_cast<float>(std::clamp(std::min(kMiddleGrey / mean, kHighlight / *bright), 1e-30, 1e30));
 }
 
+bool needsExposure(const Options& options) {
+  return isRadiance(options) && std::any_of(options.out.begin(), options.out.end(), isPng);
+}
+
 void writePicture(const std::filesystem::path& file, const Picture& picture, const Options& options, float exposure) {
-  if (std::tolower(static_cast<unsigned char>(file.extension().string().at(1))) == 'e') {
+  if (!isPng(file)) {
     host::writeExr(file, imageOf(picture, renderedWidth(options), renderedHeight(options)));
     return;
   }
-  // Radiance takes the film curve; the colours of the other views mean numbers.
-  const bool isRadiance =
-      options.view == tyndall::DebugView::Composite || options.view == tyndall::DebugView::Inscatter;
   const std::vector<float> rgb = topDownRgb(picture.composite, renderedWidth(options), renderedHeight(options));
   host::writePng(file, options.width, options.height,
-                 isRadiance ? host::toneMap(rgb.data(), options.width, options.height, exposure, options.supersample)
-                            : host::encodeColours(rgb.data(), options.width, options.height, options.supersample));
+                 isRadiance(options)
+                     ? host::toneMap(rgb.data(), options.width, options.height, exposure, options.supersample)
+                     : host::encodeColours(rgb.data(), options.width, options.height, options.supersample));
+}
+
+bool isWholePicture(const std::filesystem::path& file, const Options& options) {
+  if (isPng(file)) return host::isWholePng(file, options.width, options.height);
+  try {
+    const host::Image image = host::readExr(file);
+    const std::vector<host::Channel> wanted = imageOf({}, 0, 0).channels;
+    return image.width == renderedWidth(options) && image.height == renderedHeight(options) &&
+           image.channels.size() == wanted.size() &&
+           std::all_of(wanted.begin(), wanted.end(),
+                       [&](const host::Channel& channel) { return image.find(channel.name) != nullptr; });
+  } catch (const host::Error&) {
+    return false;
+  }
 }
 
 void writeStatistics(const std::filesystem::path& file, const Options& options, const std::string& driver,

@@ -16,8 +16,14 @@ std::filesystem::path nameOfFrame(const std::filesystem::path& pattern, int fram
 /// would lose its contrast.
 float exposureOf(const Picture& picture);
 
+/// Whether one of the options' pictures depends on the exposure.
+bool needsExposure(const Options& options);
+
 /// Writes an EXR or a PNG, by the extension. Throws host::Error.
 void writePicture(const std::filesystem::path& file, const Picture& picture, const Options& options, float exposure);
+
+/// Whether the file is all of such a picture: of the size and with the channels that would be written.
+bool isWholePicture(const std::filesystem::path& file, const Options& options);
 
 struct FrameStatistics {
   int frame = 0;

@@ -6,6 +6,7 @@
 #include "Outputs.h"
 #include "Progress.h"
 #include "RenderFrame.h"
+#include "Resume.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -32,13 +33,22 @@ void printSummary(const Options& options, const FrameRenderer& renderer, const s
                             renderer.driver()));
 }
 
-std::vector<FrameStatistics> renderFrames(const Options& options, const FrameRange& range, FrameRenderer& renderer) {
-  Progress progress(range.count());
+/// What is given, or by the first of all frames, also where another run draws that one.
+std::optional<float> exposureBefore(int frame, const Options& options, FrameRenderer& renderer) {
+  if (options.exposureStops) return static_cast<float>(std::exp2(*options.exposureStops));
+  const int first = options.frames.value_or(FrameRange{}).first;
+  if (frame == first || !needsExposure(options)) return std::nullopt;
+  renderer.render(first);
+  return exposureOf(renderer.readPicture());
+}
+
+std::vector<FrameStatistics> renderFrames(const Options& options, const std::vector<int>& frames,
+                                          FrameRenderer& renderer) {
+  Progress progress(static_cast<int>(frames.size()));
   std::vector<FrameStatistics> statistics;
   std::size_t printed = 0;
-  std::optional<float> exposure;
-  if (options.exposureStops) exposure = static_cast<float>(std::exp2(*options.exposureStops));
-  for (int frame = range.first; frame <= range.last; ++frame) {
+  std::optional<float> exposure = exposureBefore(frames.front(), options, renderer);
+  for (const int frame : frames) {
     statistics.push_back({frame, renderer.render(frame)});
     printNotes(renderer.notes(), printed);
     if (options.strict && printed > 0)
@@ -54,12 +64,30 @@ std::vector<FrameStatistics> renderFrames(const Options& options, const FrameRan
   return statistics;
 }
 
+/// The frames that are to be drawn, fewer than all where it resumes.
+std::vector<int> framesToDraw(const Options& options) {
+  if (!options.resume) return framesOf(options);
+  std::vector<int> missing = missingFrames(options);
+  const std::size_t count = framesOf(options).size();
+  host::say(fmt::format("{} of {} frames are whole and stay", count - missing.size(), count));
+  return missing;
+}
+
+int printMissing(const Options& options) {
+  const std::vector<int> missing = missingFrames(options);
+  if (missing.empty()) return 0;
+  host::print(rangesOf(missing) + "\n");
+  return 1;
+}
+
 int run(const Options& options) {
-  const FrameRange range = options.frames.value_or(FrameRange{});
+  if (options.missing) return printMissing(options);
   const OutputNames names(options);
+  const std::vector<int> frames = framesToDraw(options);
+  if (frames.empty()) return 0;
   FrameRenderer renderer(options);
   names.requireOthersThan(renderer.scene().files);
-  const std::vector<FrameStatistics> statistics = renderFrames(options, range, renderer);
+  const std::vector<FrameStatistics> statistics = renderFrames(options, frames, renderer);
   if (options.stats) writeStatistics(*options.stats, options, renderer.driver(), statistics);
   if (options.out.empty() && !options.stats) printSummary(options, renderer, statistics);
   return 0;
