@@ -47,8 +47,7 @@ tyndall::Frame frameOf(const tyndall::Camera& camera, int width, int height) {
 }
 
 Seen seenAt(const tyndall::Frame& frame, const dvec3& point) {
-  const dmat4 clipFromWorld =
-      host::fromMat4(frame.camera.clipFromView) * host::fromMat4(frame.camera.viewFromWorld);
+  const dmat4 clipFromWorld = host::fromMat4(frame.camera.clipFromView) * host::fromMat4(frame.camera.viewFromWorld);
   const glm::dvec4 clip = clipFromWorld * glm::dvec4(point, 1);
   const dvec3 ndc = dvec3(clip) / clip.w;
   const bool half = frame.camera.clipDepth == tyndall::ClipDepth::NegativeOneToOne;

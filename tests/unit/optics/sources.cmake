@@ -1,6 +1,10 @@
 set(TYNDALL_UNIT_OPTICS_SOURCES ${CMAKE_CURRENT_LIST_DIR}/LowRankTest.cpp
+                               ${CMAKE_CURRENT_LIST_DIR}/MatricesTest.cpp
                                ${CMAKE_CURRENT_LIST_DIR}/MeshBoxTest.cpp
-                               ${CMAKE_CURRENT_LIST_DIR}/SampleBudgetTest.cpp)
+                               ${CMAKE_CURRENT_LIST_DIR}/OpticsCases.cpp
+                               ${CMAKE_CURRENT_LIST_DIR}/SampleBudgetTest.cpp
+                               ${CMAKE_CURRENT_LIST_DIR}/SliceRowsTest.cpp
+                               ${CMAKE_CURRENT_LIST_DIR}/SlicesTest.cpp)
 # Eigen's and the library's own headers, for these files only.
 find_package(Eigen3 REQUIRED)
 get_target_property(eigen_includes Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
