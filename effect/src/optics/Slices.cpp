@@ -18,10 +18,11 @@ using glm::dvec3;
 using glm::dvec4;
 
 // The border of the image through its outermost pixel centres, as an arc from the low corner: bottom, right, top, left.
-// Around a single row or column it is half a pixel wide, so that lines leave that in both directions, too.
+// Around a single row or column it is not without width: lines leave one through its ends, too.
 struct Border {
+  static constexpr double kThin = 1e-3; // pixels; a slice still runs through the pixels' centres
   dvec2 low, high;
-  explicit Border(const dvec2& image) : low(glm::min(dvec2(0.5), 0.25 * image)), high(image - low) {}
+  explicit Border(const dvec2& image) : low(glm::min(dvec2(0.5), 0.5 * image - 0.5 * kThin)), high(image - low) {}
   dvec2 size() const { return high - low; }
   double perimeter() const { return 2 * (size().x + size().y); }
   double length(int side) const { return side % 2 == 0 ? size().x : size().y; }
