@@ -71,6 +71,9 @@ TEST_CASE("a matrix can be inverted whatever the units of its rows and columns")
     }
     CHECK(isInvertible(diagonal(rows) * m * diagonal(columns)));
   }
+  dmat4 nearlySingular(1);
+  nearlySingular[1] = dvec4(1, 1e-8, 0, 0); // a shear
+  CHECK(isInvertible(nearlySingular));
   for (const double scale : {1e-6, 1.0, 1e6})
     for (const Projection& p : projections(scale)) {
       CAPTURE(p.name, scale);
@@ -147,5 +150,16 @@ TEST_CASE("a far plane at infinity is told from one that is only far") {
       REQUIRE(plane.exists);
       CHECK(glm::dot(plane.coefficients, dvec4(0, 0, -1, 1)) == Approx(0).margin(1e-6));
       CHECK(glm::dot(plane.coefficients, dvec4(0, 0, -far, 1)) == Approx(1).epsilon(1e-6));
+    }
+  Random random(6); // matrices are rounded
+  for (const host::ClipConvention& convention : kConventions)
+    for (int i = 0; i < 100; ++i) {
+      const dvec3 position = random.inCube(1e4), direction = random.direction();
+      tyndall::Light light = spot(position, direction, 0.5);
+      light.shadow.clipDepth = convention.clipDepth;
+      const dmat4 infinite = host::perspective(0.7, 1.1, 0.3, tyndall::kInfinity, convention);
+      light.shadow.views = {{host::toMat4(infinite * host::viewLooking(position, direction)), 0}};
+      CAPTURE(convention.reversed, i);
+      CHECK_FALSE(linearDepth(light, 0).exists);
     }
 }
