@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <optional>
 
 using namespace tests;
 using glm::dmat4;
@@ -19,8 +20,12 @@ namespace {
 
 constexpr int kMapWidth = 256, kMapHeight = 192;
 
-// A point on the camera ray through a window position, at a distance of 0.03 to 300 times `scale`.
-dvec3 pointOnRay(const Frame& frame, const dvec2& window, double scale, Random& random) {
+struct WorldRay {
+  dvec3 begin, along; // unit
+};
+
+// The camera ray through a window position, from where view z is 0: the eye, if there is one.
+WorldRay rayThrough(const Frame& frame, const dvec2& window) {
   const dmat4 view = host::fromMat4(frame.camera.viewFromWorld), clip = host::fromMat4(frame.camera.clipFromView);
   const dvec2 ndc = 2.0 * window / dvec2(frame.width, frame.height) - 1.0;
   const auto at = [&](double z) {
@@ -28,14 +33,27 @@ dvec3 pointOnRay(const Frame& frame, const dvec2& window, double scale, Random& 
     return dvec3(p) / p.w;
   };
   const dvec3 a = at(0.25), b = at(0.75), along = (b.z < a.z ? 1.0 : -1.0) * glm::normalize(b - a);
-  const dvec3 begin = a - along * (a.z / along.z); // where view z is 0: the eye, if there is one
-  const double distance = scale * 0.03 * std::pow(1e4, random.within(0, 1));
-  return glm::inverse(view) * glm::dvec4(begin + distance * along, 1);
+  const dmat4 worldFromView = glm::inverse(view);
+  return {worldFromView * glm::dvec4(a - along * (a.z / along.z), 1), worldFromView * glm::dvec4(along, 0)};
+}
+
+// Where a point lies on a slice's row: texels along it, in steps, and aside.
+struct OnRow {
+  double at = 0, aside = 0;
+};
+std::optional<OnRow> placeOn(const glm::dvec4& row, const tyndall::ShadowView& view, const dvec3& point) {
+  const glm::dvec4 clip = host::fromMat4(view.clipFromWorld) * glm::dvec4(point, 1);
+  if (!(clip.w > 0) || std::max(std::abs(clip.x), std::abs(clip.y)) > clip.w) return std::nullopt;
+  const dvec2 texel = (0.5 * dvec2(clip) / clip.w + 0.5) * dvec2(kMapWidth, kMapHeight);
+  const dvec2 step(row.z, row.w), from = texel - dvec2(row);
+  const double at = glm::dot(from, step) / glm::dot(step, step);
+  return OnRow{at, glm::length(from - at * step)};
 }
 
 struct Missed {
   double aside = 0;  // texels off the row's line
-  double beyond = 0; // texels before its first or behind its last one
+  double beyond = 0; // steps before its first or behind its last one
+  double back = 0;   // steps that a farther point lies before a nearer one
   int points = 0;
 };
 
@@ -46,18 +64,18 @@ Missed missedBy(const SliceTable& table, const Frame& frame, const Light& light,
   for (std::size_t slice = 0; slice < count; ++slice)
     for (int i = 0; i < 20; ++i) {
       const SliceEnds ends = sliceEnds(table, static_cast<int>(slice));
-      const dvec3 point = pointOnRay(frame, glm::mix(ends.entry, ends.exit, random.within(0, 1)), scale, random);
+      const WorldRay ray = rayThrough(frame, glm::mix(ends.entry, ends.exit, random.within(0, 1)));
+      const double distance = scale * 0.03 * std::pow(1e4, random.within(0, 1));
       for (std::size_t v = 0; v < light.shadow.views.size(); ++v) {
-        const glm::dvec4 clip = host::fromMat4(light.shadow.views[v].clipFromWorld) * glm::dvec4(point, 1);
-        if (!(clip.w > 0) || std::max(std::abs(clip.x), std::abs(clip.y)) > clip.w) continue;
-        const dvec2 texel = (0.5 * dvec2(clip) / clip.w + 0.5) * dvec2(kMapWidth, kMapHeight);
         const glm::dvec4 row(table.texels[(2 + 2 * v) * count + slice]);
         const double texels = table.texels[(3 + 2 * v) * count + slice].x;
-        const dvec2 step(row.z, row.w), from = texel - dvec2(row);
-        const double at = glm::dot(from, step) / glm::dot(step, step);
-        missed.aside = std::max(missed.aside, glm::length(from - at * step));
-        missed.beyond = std::max({missed.beyond, -at, at - texels});
+        const auto on = placeOn(row, light.shadow.views[v], ray.begin + distance * ray.along);
+        if (!on) continue;
+        missed.aside = std::max(missed.aside, on->aside);
+        missed.beyond = std::max({missed.beyond, -on->at, on->at - texels});
         ++missed.points;
+        const auto farther = placeOn(row, light.shadow.views[v], ray.begin + 1.2 * distance * ray.along);
+        if (farther) missed.back = std::max(missed.back, on->at - farther->at);
       }
     }
   return missed;
@@ -95,6 +113,7 @@ TEST_CASE("the row of a slice holds all that its rays see in a shadow map, whate
           const Missed missed = missedBy(table, frame, frame.lights[l], scale, random);
           CHECK(missed.aside < 2e-3);
           CHECK(missed.beyond < 2e-3);
+          CHECK(missed.back < 2e-3);
           CHECK(isFinite(table));
           points += missed.points;
         }
