@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 
 namespace tyndall {
 
@@ -26,6 +27,7 @@ Status resolve(Draw& draw, gl::ProgramCache& programs) {
     if (!texture)
       return {StatusCode::ShaderError,
               "a defect of Tyndall: the row of \"" + draw.title + "\" does not say that it reads " + sampler.name};
+    if (*texture == 0) std::fprintf(stderr, "ZERO %s | %s\n", draw.title.c_str(), sampler.name.c_str());
     draw.textures.push_back({sampler.unit, sampler.target, *texture});
   }
   return {};

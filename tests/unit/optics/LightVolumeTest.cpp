@@ -91,6 +91,42 @@ TEST_CASE("balls and cones beside, behind and before a camera are told apart") {
   CHECK_FALSE(isOutOfView(spot({0, 0, -5}, {0, 0, 1}, glm::half_pi<double>()), camera));
 }
 
+TEST_CASE("an orthographic camera's rays begin at its near plane and run beyond its far one, in every convention") {
+  for (const Projection& p : projections()) { // planes at 0.1 and 60, 16 wide and 10 high
+    if (!p.orthographic) continue;
+    const Camera camera = cameraOf(p, {0, 0, 0}, {0, 0, -1});
+    CAPTURE(p.name);
+    CHECK_FALSE(isOutOfView(ball({7, 4, -90}, 1), camera));
+    CHECK_FALSE(isOutOfView(ball({7, 4, -30}, 1), camera));
+    CHECK_FALSE(isOutOfView(ball({0, 0, 0.8}, 1), camera));
+    CHECK(isOutOfView(ball({0, 0, 1}, 1), camera));
+    CHECK(isOutOfView(ball({0, 6.1, -30}, 1), camera));
+    CHECK(isOutOfView(ball({-9.1, 0, -30}, 1), camera));
+    CHECK_FALSE(isOutOfView(ball({-8.9, 0, -30}, 1), camera));
+    CHECK(isOutOfView(spot({-9, 0, -30}, {-1, 0, 0}, 1), camera));
+  }
+}
+
+TEST_CASE("a mirrored picture shows the same lights") {
+  Random random(65);
+  glm::dmat4 mirror(1);
+  mirror[0][0] = -1;
+  int out = 0;
+  for (const Projection& p : projections()) {
+    const Camera camera = cameraAt(p);
+    Camera mirrored = camera;
+    mirrored.clipFromView = host::toMat4(mirror * p.clipFromView);
+    for (int i = 0; i < 40; ++i) {
+      const Light light = randomLight(random);
+      CAPTURE(p.name, i);
+      CHECK(isOutOfView(light, mirrored) == isOutOfView(light, camera));
+      CHECK(shareOf(light, mirrored, {}).area == Approx(shareOf(light, camera, {}).area).margin(0.5 / 144));
+      out += isOutOfView(light, camera) ? 1 : 0;
+    }
+  }
+  CHECK(out > 100);
+}
+
 TEST_CASE("no light is out of view that reaches a point that a ray sees; few others are kept") {
   Random random(61);
   int out = 0, keptInVain = 0;
