@@ -77,7 +77,7 @@ Medium mixture() {
 
 TEST_CASE("a pixel's position and depth lead back to the point that it shows, in every convention") {
   Random random(41);
-  for (const double scale : {1e-6, 1.0, 1e6})
+  for (const double scale : {1e-25, 1e-6, 1.0, 1e6, 1e25})
     for (const Projection& p : projections(scale)) {
       CAPTURE(p.name, scale);
       const Frame frame = frameWith(p, scale);

@@ -198,7 +198,7 @@ TEST_CASE("a cone has the share of the image that it covers from the eye, a ligh
 TEST_CASE("a light is worth its irradiance over an optical depth or a ray, a lamp's by its distance and angle") {
   const Camera camera = plainCamera();
   tyndall::Medium medium;
-  medium.constituents = {{{0.5F, 0.25F, 0}}};
+  medium.constituents = {{{0.25F, 0.5F, 0}}};
   Light light = sun({0, -1, 0});
   light.colour = {1, 3, 2};
   CHECK(shareOf(light, camera, medium).area == 1);
@@ -210,6 +210,38 @@ TEST_CASE("a light is worth its irradiance over an optical depth or a ray, a lam
   CHECK(shareOf(near, camera, medium).brightness == Approx(glm::pi<double>() / 4));
   CHECK(shareOf(far, camera, medium).brightness == Approx(glm::pi<double>() / 8));
   CHECK(shareOf(spot({0, 0, -4}, {0, 0, 1}, 0.4), camera, medium).brightness == Approx(0.8 / 4));
+}
+
+// Where pixels are smallest, at a corner, half a pixel from a lamp's centre.
+TEST_CASE("the brightest inscatter of a lamp is that of a ray half a pixel beside it") {
+  for (const Projection& p : projections()) {
+    Frame frame = frameOf(cameraAt(p), 64, 40);
+    frame.medium = {};
+    frame.medium.constituents = {{{1e-4F, 1e-4F, 1e-4F}}};
+    glm::dvec4 corner = glm::inverse(p.clipFromView) * glm::dvec4(0.97, 0.96, 0.5, 1);
+    corner = glm::dvec4(dvec3(corner) / corner.w, 1);
+    corner = glm::dvec4(dvec3(corner) * (p.orthographic ? 1 : 20 / glm::length(dvec3(corner))), 1);
+    const dvec3 position = glm::inverse(host::fromMat4(frame.camera.viewFromWorld)) * corner;
+    frame.lights = {lamp(position)};
+    const glm::dvec2 place = seenAt(frame, position).window;
+    double brightest = 0;
+    for (int i = 0; i < 64; ++i) {
+      const double angle = glm::pi<double>() * i / 32;
+      const glm::dvec2 window = place + 0.5 * glm::dvec2(std::cos(angle), std::sin(angle));
+      // In the middle of the one pixel of another image.
+      Camera one = frame.camera;
+      glm::dmat4 toWindow(1); // the window to the centre of the image
+      toWindow[3][0] = 1 - window.x / 32;
+      toWindow[3][1] = 1 - window.y / 20;
+      one.clipFromView = host::toMat4(toWindow * p.clipFromView);
+      const reference::Ray ray = reference::CameraRays(one, 1, 1).ray(0, 0);
+      brightest = std::max(brightest, reference::Airlight(frame.medium, frame.lights[0], ray).span(0, 1e5).x);
+    }
+    const double bound = brightestInscatter(frame, frame.lights[0]);
+    CAPTURE(p.name);
+    CHECK(brightest <= bound);
+    CHECK(brightest > 0.5 * bound);
+  }
 }
 
 TEST_CASE("no ray of a picture brings more than the brightest inscatter, and some bring nearly that") {

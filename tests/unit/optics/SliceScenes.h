@@ -18,22 +18,25 @@ inline SliceEnds sliceEnds(const tyndall::optics::SliceTable& table, int slice) 
   return {{ends.x, ends.y}, {ends.z, ends.w}};
 }
 
+/// From a slice's line, which ends at an epipole in the image; pixels.
+inline double distanceTo(const tyndall::optics::SliceTable& table, int slice, const glm::dvec2& p) {
+  const SliceEnds ends = sliceEnds(table, slice);
+  const glm::dvec2 along = ends.exit - ends.entry;
+  const double share = glm::dot(p - ends.entry, along) / std::max(glm::dot(along, along), 1e-12);
+  const double least = table.block.slicesClosed ? 0 : -1e9;
+  return glm::distance(p, ends.entry + std::max(share, least) * along);
+}
+
 struct NearestSlice {
   int slice = 0;
-  double distance = 1e300; ///< pixels
+  double distance = 1e300;
 };
 
-/// By trying all of them: the distance to a slice's line, which ends at an epipole in the image.
+/// By trying all of them.
 inline NearestSlice nearestSlice(const tyndall::optics::SliceTable& table, const glm::dvec2& p) {
   NearestSlice nearest;
-  for (int i = 0; i < table.slices; ++i) {
-    const SliceEnds ends = sliceEnds(table, i);
-    const glm::dvec2 along = ends.exit - ends.entry;
-    const double share = glm::dot(p - ends.entry, along) / std::max(glm::dot(along, along), 1e-12);
-    const double least = table.block.slicesClosed ? 0 : -1e9;
-    const double distance = glm::distance(p, ends.entry + std::max(share, least) * along);
-    if (distance < nearest.distance) nearest = {i, distance};
-  }
+  for (int i = 0; i < table.slices; ++i)
+    if (const double distance = distanceTo(table, i, p); distance < nearest.distance) nearest = {i, distance};
   return nearest;
 }
 
