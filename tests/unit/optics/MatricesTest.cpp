@@ -72,7 +72,8 @@ TEST_CASE("a matrix can be inverted whatever the units of its rows and columns")
     CHECK(isInvertible(diagonal(rows) * m * diagonal(columns)));
   }
   dmat4 nearlySingular(1);
-  nearlySingular[1] = dvec4(1, 1e-8, 0, 0); // a shear
+  nearlySingular[0] = dvec4(1, 1, 0, 0);
+  nearlySingular[1] = dvec4(1, 1 + 1e-8, 0, 0);
   CHECK(isInvertible(nearlySingular));
   for (const double scale : {1e-6, 1.0, 1e6})
     for (const Projection& p : projections(scale)) {
@@ -151,6 +152,9 @@ TEST_CASE("a far plane at infinity is told from one that is only far") {
       CHECK(glm::dot(plane.coefficients, dvec4(0, 0, -1, 1)) == Approx(0).margin(1e-6));
       CHECK(glm::dot(plane.coefficients, dvec4(0, 0, -far, 1)) == Approx(1).epsilon(1e-6));
     }
+  tyndall::Light endless = spot({0, 0, 0}, {0, 0, -1}, 0.5); // farther than floats tell from infinity
+  endless.shadow.views = {{host::toMat4(host::perspective(1, 1, 1, 1e10, {})), 0}};
+  CHECK_FALSE(linearDepth(endless, 0).exists);
   Random random(6); // matrices are rounded
   for (const host::ClipConvention& convention : kConventions)
     for (int i = 0; i < 100; ++i) {
