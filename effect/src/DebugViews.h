@@ -16,22 +16,22 @@ enum class Shown {
 
 struct DebugViewRow {
   DebugView view;
-  const char* name;
   Shown shown;
+  const char* name;
 };
 
 inline constexpr DebugViewRow kDebugViews[] = {
-    {DebugView::Composite, "Composite", Shown::Picture},
-    {DebugView::Slices, "Slices", Shown::Slices},
-    {DebugView::Samples, "Samples", Shown::Samples},
-    {DebugView::Breaks, "Breaks", Shown::Samples},
-    {DebugView::MarchSamples, "MarchSamples", Shown::Samples},
-    {DebugView::FixupPixels, "FixupPixels", Shown::Samples},
-    {DebugView::NodeVisits, "NodeVisits", Shown::Slices},
-    {DebugView::Inscatter, "Inscatter", Shown::Picture},
-    {DebugView::Transmittance, "Transmittance", Shown::Picture},
-    {DebugView::Difference, "Difference", Shown::Picture},
-    {DebugView::Redrawn, "Redrawn", Shown::Picture},
+    {DebugView::Composite, Shown::Picture, "Composite"},
+    {DebugView::Slices, Shown::Slices, "Slices"},
+    {DebugView::Samples, Shown::Samples, "Samples"},
+    {DebugView::Breaks, Shown::Samples, "Breaks"},
+    {DebugView::MarchSamples, Shown::Samples, "MarchSamples"},
+    {DebugView::FixupPixels, Shown::Samples, "FixupPixels"},
+    {DebugView::NodeVisits, Shown::Slices, "NodeVisits"},
+    {DebugView::Inscatter, Shown::Picture, "Inscatter"},
+    {DebugView::Transmittance, Shown::Picture, "Transmittance"},
+    {DebugView::Difference, Shown::Picture, "Difference"},
+    {DebugView::Redrawn, Shown::Picture, "Redrawn"},
 };
 
 /// Null for what is none of the enumerators.

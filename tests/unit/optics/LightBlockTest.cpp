@@ -140,6 +140,20 @@ TEST_CASE("points come to their texels, with depth that grows away from the ligh
   }
 }
 
+TEST_CASE("a shadow map is seen as exactly far from the world's origin as at it") {
+  for (const Projection& p : projections()) {
+    Frame frame = frameWith(p);
+    frame.lights = {spot({2, 8, -4}, {0, -1, -0.2}, 0.8)};
+    addViews(frame.lights[0], p.convention, {2, 0, -5}, 20);
+    const Frame far = placed(frame, {glm::dmat3(1), 1, {3e6, -2e6, 1e6}});
+    const MapView here = lightBlock(frame, frame.lights[0], kMapWidth, kMapHeight).shadowViews[0];
+    const MapView there = lightBlock(far, far.lights[0], kMapWidth, kMapHeight).shadowViews[0];
+    CAPTURE(p.name);
+    for (int i = 0; i < 4; ++i)
+      CHECK(glm::distance(here.texelFromCamera[i], there.texelFromCamera[i]) < 1e-2F);
+  }
+}
+
 TEST_CASE("depth of curves is linear from the near to the far plane, of camera-relative points") {
   for (const Projection& p : projections()) {
     const Frame frame = frameWith(p);
