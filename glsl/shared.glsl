@@ -63,7 +63,7 @@ UNIFORM_BLOCK(LightBlock) {
 };
 
 // Epipolar sampling (Yusov 2013). Window positions are in pixels as gl_FragCoord.xy; the border is the rectangle through
-// the outermost pixel centres.
+// the outermost pixel centres, around a single row or column of pixels a little wide.
 UNIFORM_BLOCK(EpipolarBlock) {
   vec3 epipole;                       // homogeneous window position of the light (x, y, w)
   float epipoleSign;                  // of its w

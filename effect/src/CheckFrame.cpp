@@ -1,5 +1,6 @@
 #include "CheckFrame.h"
 
+#include "DebugViews.h"
 #include "optics/Matrices.h"
 
 #include <cmath>
@@ -172,23 +173,19 @@ Status checkLight(const std::string& field, const Light& light) {
 }
 
 Status checkView(const Frame& frame) {
-  constexpr const char* kNames[] = {"Composite",     "Slices",      "Samples",    "Breaks",
-                                    "MarchSamples",  "FixupPixels", "NodeVisits", "Inscatter",
-                                    "Transmittance", "Difference",  "Redrawn"};
   const DebugView view = frame.settings.debugView;
   const Technique technique = frame.settings.technique;
-  if (view < DebugView::Composite || view > DebugView::Redrawn)
+  const DebugViewRow* row = rowOf(view);
+  if (!row)
     return invalid("settings.debugView", std::to_string(static_cast<int>(view)), "must be one of the enumerators");
-  const std::string name = kNames[static_cast<int>(view)];
   if (view != DebugView::Composite && frame.colour == 0)
-    return invalid("settings.debugView", name, "needs Frame::colour, which the view replaces");
-  if (view < DebugView::Slices || view > DebugView::NodeVisits) return {};
+    return invalid("settings.debugView", row->name, "needs Frame::colour, which the view replaces");
+  if (row->shown == Shown::Picture) return {};
   if (technique == Technique::Exact || frame.depth.multisampled)
-    return invalid("settings.debugView", name,
+    return invalid("settings.debugView", row->name,
                    "needs slices: technique Tree, LowRank or Epipolar, and a depth that is not multisampled");
-  if ((technique == Technique::Tree || technique == Technique::LowRank) && view != DebugView::Slices &&
-      view != DebugView::NodeVisits)
-    return invalid("settings.debugView", name, "needs samples: technique Epipolar");
+  if (row->shown == Shown::Samples && technique != Technique::Epipolar)
+    return invalid("settings.debugView", row->name, "needs samples: technique Epipolar");
   return {};
 }
 

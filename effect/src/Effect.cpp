@@ -56,7 +56,7 @@ Status Effect::State::planFrame(const Frame& frame, const FrameTextures& texture
   planned.empty = allocator.texture(targets, Resource::Empty, {});
   if (!allocator.status()) return allocator.status();
   requestPrograms(planned.plan, programs);
-  if (Status s = resolvePrograms(planned.plan, programs); !s) return s;
+  if (Status s = resolvePrograms(planned.plan, programs, Resolve::ToDraw); !s) return s;
   return blocks.upload(planned.plan, limits.blockAlignment);
 }
 
@@ -117,7 +117,7 @@ PrepareStatus Effect::State::prepare(const Frame& frame) {
     requestPrograms(plan, programs);
   if (const int left = programs.poll(); left > 0) return {{}, left};
   for (FramePlan& plan : plans)
-    if (Status s = resolvePrograms(plan, programs); !s) return {s};
+    if (Status s = resolvePrograms(plan, programs, Resolve::Ahead); !s) return {s};
   return {};
 }
 

@@ -21,6 +21,7 @@ using glm::dvec4;
 struct ViewVolume {
   std::array<dvec3, 4> begin;     // relative to the camera's origin; the corners in turn
   std::array<dvec3, 4> direction; // unit
+  std::array<dvec3, 4> along;     // the same from `begin` to one plane across the view: even over the image
   bool orthographic;
 
   explicit ViewVolume(const Camera& camera) : orthographic(isOrthographic(toGlm(camera.clipFromView))) {
@@ -36,7 +37,8 @@ struct ViewVolume {
         return dvec3(p) / p.w - origin;
       };
       begin[i] = orthographic ? pointAt(near) : dvec3(0);
-      direction[i] = glm::normalize(pointAt(0.5) - begin[i]);
+      along[i] = pointAt(0.5) - begin[i];
+      direction[i] = glm::normalize(along[i]);
     }
   }
 
@@ -117,19 +119,19 @@ std::vector<dvec3> candidates(const ViewVolume& view, const ReachedVolume& light
 
 namespace {
 
-// True if a ray from the camera's origin meets the volume: tried at points that are even in the angle at the lamp.
+// True if a ray meets the volume: tried in directions from the lamp, even in the angle, that end on the ray.
 bool meets(const ReachedVolume& light, const dvec3& begin, const dvec3& direction) {
-  constexpr int kPoints = 32;
+  constexpr int kSteps = 32;
   const double foot = glm::dot(light.position - begin, direction);
-  const double height = glm::length(light.position - begin - foot * direction);
+  const dvec3 toFoot = begin + foot * direction - light.position;
+  const double height = glm::length(toFoot);
   if (height > light.range) return false;
-  for (int i = 0; i < kPoints; ++i) {
-    const double angle = glm::pi<double>() * ((i + 0.5) / kPoints - 0.5),
-                 s = foot + std::max(height, 1e-12) * std::tan(angle);
-    const dvec3 fromLight = begin + s * direction - light.position;
-    const double distance = glm::length(fromLight);
-    if (s > 0 && distance <= light.range && glm::dot(fromLight, light.axis) >= distance * std::cos(light.angle))
-      return true;
+  const double last = std::acos(height / light.range), first = std::max(std::atan2(-foot, height), -last);
+  if (first > last) return false; // it lies behind the ray's beginning
+  for (int i = 0; i <= kSteps; ++i) {
+    const double angle = glm::mix(first, last, static_cast<double>(i) / kSteps);
+    const dvec3 towards = std::cos(angle) / std::max(height, 1e-300) * toFoot + std::sin(angle) * direction;
+    if (glm::dot(towards, light.axis) >= std::cos(light.angle)) return true;
   }
   return false;
 }
@@ -155,7 +157,7 @@ LightShare shareOf(const Light& light, const Camera& camera, const Medium& mediu
       const auto at = [&](const std::array<dvec3, 4>& corners) {
         return glm::mix(glm::mix(corners[0], corners[1], u), glm::mix(corners[3], corners[2], u), v);
       };
-      met += meets(reached, at(view.begin), glm::normalize(at(view.direction))) ? 1 : 0;
+      met += meets(reached, at(view.begin), glm::normalize(at(view.along))) ? 1 : 0;
     }
   const double distance = std::max(glm::length(reached.position), 1e-12);
   // What no ray meets may lie between them.

@@ -18,8 +18,11 @@ using glm::dvec3;
 using glm::dvec4;
 
 // The border of the image through its outermost pixel centres, as an arc from the low corner: bottom, right, top, left.
+// Around a single row or column it is not without width: lines leave one through its ends, too.
 struct Border {
+  static constexpr double kThin = 1e-3; // pixels; a slice still runs through the pixels' centres
   dvec2 low, high;
+  explicit Border(const dvec2& image) : low(glm::min(dvec2(0.5), 0.5 * image - 0.5 * kThin)), high(image - low) {}
   dvec2 size() const { return high - low; }
   double perimeter() const { return 2 * (size().x + size().y); }
   double length(int side) const { return side % 2 == 0 ? size().x : size().y; }
@@ -30,7 +33,7 @@ struct Border {
     return sum;
   }
   dvec2 at(double arc) const {
-    arc = std::fmod(arc, std::max(perimeter(), 1e-300));
+    arc = std::fmod(arc, perimeter());
     const dvec2 s = size();
     if (arc < s.x) return {low.x + arc, low.y};
     if (arc < s.x + s.y) return {high.x, low.y + (arc - s.x)};
@@ -151,6 +154,7 @@ Row rowOf(const glm::dmat4& texelFromCamera, const dvec4& begin, const dvec4& di
 
 // How rows hold depths: in 16 bits where depth is linear in the distance from the light, else as they are.
 void setRowCode(blocks::EpipolarBlock& block, const blocks::LightBlock& light, std::size_t views) {
+  if (views == 0) return;                          // no rows
   constexpr float kMost = 65535, kFar = kMost - 1; // the greatest code is a texel without a caster
   const bool linear = std::all_of(light.shadowViews, light.shadowViews + views, [](const blocks::MapView& view) {
     const glm::mat4& m = view.texelFromCamera;
@@ -189,7 +193,7 @@ void setStored(blocks::EpipolarBlock& block, const Frame& frame, const Light& li
 
 SliceTable makeSlices(const Frame& frame, const Light& light, int shadowWidth, int shadowHeight) {
   const int slices = frame.settings.slices, samples = frame.settings.samples;
-  const Border border{dvec2(0.5), dvec2(frame.width, frame.height) - 0.5};
+  const Border border(dvec2(frame.width, frame.height));
   const dvec3 epipole = epipoleOf(frame, light);
   const std::array<bool, 4> exits = exitSides(epipole, border);
   // The exit sides are neighbours; the first is one whose predecessor is none.
@@ -234,7 +238,7 @@ SliceTable makeSlices(const Frame& frame, const Light& light, int shadowWidth, i
   block.epipoleSign = epipole.z < 0 ? -1 : 1;
   block.border = glm::vec4(border.low, border.high);
   block.slicesBegin = static_cast<float>(border.start(first));
-  block.sliceWidth = static_cast<float>(std::max(step, 1e-9));
+  block.sliceWidth = static_cast<float>(step);
   block.borderLength = static_cast<float>(border.perimeter());
   block.slicesClosed = closed ? 1 : 0;
   block.sliceCount = table.slices;

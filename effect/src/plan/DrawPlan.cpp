@@ -10,23 +10,27 @@ namespace tyndall {
 namespace {
 
 // What a sampler reads, as the pass has it.
-const gl::Uint* textureFor(const Draw& draw, const std::string& sampler) {
+const NamedTexture* textureFor(const Draw& draw, const std::string& sampler) {
   const auto found = std::find_if(draw.reads.begin(), draw.reads.end(),
-                                  [&](const NamedTexture& read) { return read.first == sampler; });
-  return found == draw.reads.end() ? nullptr : &found->second;
+                                  [&](const NamedTexture& read) { return read.sampler == sampler; });
+  return found == draw.reads.end() ? nullptr : &*found;
 }
 
-Status resolve(Draw& draw, gl::ProgramCache& programs) {
+Status defect(const Draw& draw, const std::string& what) {
+  return {StatusCode::ShaderError, "a defect of Tyndall: \"" + draw.title + "\" " + what};
+}
+
+Status resolve(Draw& draw, gl::ProgramCache& programs, Resolve what) {
   const gl::Program* program = programs.find(draw.variant);
   if (!program) return {StatusCode::ShaderError, "a shader did not build: " + programs.error()};
   draw.program = program->name();
   draw.textures.clear();
   for (const gl::Program::Sampler& sampler : program->samplers()) {
-    const gl::Uint* texture = textureFor(draw, sampler.name);
-    if (!texture)
-      return {StatusCode::ShaderError,
-              "a defect of Tyndall: the row of \"" + draw.title + "\" does not say that it reads " + sampler.name};
-    draw.textures.push_back({sampler.unit, sampler.target, *texture});
+    const NamedTexture* read = textureFor(draw, sampler.name);
+    if (!read) return defect(draw, "has a row that does not say that it reads " + sampler.name);
+    if (what == Resolve::ToDraw && read->texture == 0 && !read->mayLack)
+      return defect(draw, "reads " + sampler.name + ", which nothing has made");
+    draw.textures.push_back({sampler.unit, sampler.target, read->texture});
   }
   return {};
 }
@@ -219,10 +223,10 @@ void requestPrograms(const FramePlan& plan, gl::ProgramCache& programs) {
   forEachDraw(plan, [&](const Draw& draw) { programs.request(draw.variant); });
 }
 
-Status resolvePrograms(FramePlan& plan, gl::ProgramCache& programs) {
+Status resolvePrograms(FramePlan& plan, gl::ProgramCache& programs, Resolve what) {
   for (Step& step : plan.steps)
     if (Draw* draw = std::get_if<Draw>(&step))
-      if (Status s = resolve(*draw, programs); !s) return s;
+      if (Status s = resolve(*draw, programs, what); !s) return s;
   return {};
 }
 

@@ -25,8 +25,12 @@ struct UnitsUsed {
 /// Starts to build the plan's programs.
 void requestPrograms(const FramePlan& plan, gl::ProgramCache& programs);
 
-/// Has every draw know its program and where its textures go; ShaderError if a program does not build.
-Status resolvePrograms(FramePlan& plan, gl::ProgramCache& programs);
+/// A plan that is to be drawn has its textures, one made ahead of its frame may not.
+enum class Resolve { Ahead, ToDraw };
+
+/// Has every draw know its program and where its textures go; ShaderError if a program does not build, or if a draw
+/// would read what nothing has made.
+Status resolvePrograms(FramePlan& plan, gl::ProgramCache& programs, Resolve what);
 
 UnitsUsed unitsOf(const FramePlan& plan);
 

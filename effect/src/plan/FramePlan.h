@@ -50,7 +50,11 @@ struct Clear {
 };
 
 /// A texture by the sampler that reads it.
-using NamedTexture = std::pair<std::string, gl::Uint>;
+struct NamedTexture {
+  std::string sampler;
+  gl::Uint texture = 0;
+  bool mayLack = false; ///< its program asks a block whether there is one
+};
 
 struct Draw {
   std::string title;

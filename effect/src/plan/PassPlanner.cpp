@@ -99,10 +99,10 @@ bool PassPlanner::isOverChanges(Shape shape) const {
 // A shape's own come last: they are 0 where all is drawn.
 void PassPlanner::addReads(const PassRow& row, Draw& draw) const {
   for (const Read& read : row.reads)
-    draw.reads.emplace_back(read.as ? read.as : samplerOf(read.resource), board[read.resource]);
-  draw.reads.emplace_back(samplerOf(Resource::ChangedTiles), drawnTiles);
-  draw.reads.emplace_back(samplerOf(Resource::ChangedSlices), drawnSlices);
-  draw.reads.emplace_back(samplerOf(Resource::ChangedSegments), drawnSegments);
+    draw.reads.push_back({read.as ? read.as : samplerOf(read.resource), board[read.resource], read.mayLack});
+  draw.reads.push_back({samplerOf(Resource::ChangedTiles), drawnTiles, true});
+  draw.reads.push_back({samplerOf(Resource::ChangedSlices), drawnSlices, true});
+  draw.reads.push_back({samplerOf(Resource::ChangedSegments), drawnSegments, true});
 }
 
 void PassPlanner::addTarget(const PassRow& row, const DrawOptions& options, Draw& draw) {

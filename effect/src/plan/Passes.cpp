@@ -29,8 +29,16 @@ class Row {
 public:
   Row(Pass pass, const char* name, const char* fragment, Shape shape = Shape::FullScreen)
       : row_{pass, name, fragment, shape} {}
-  Row reads(std::vector<Read> what) const {
-    return with([&](PassRow& r) { r.reads = what; });
+  Row reads(const std::vector<Read>& what) const {
+    return with([&](PassRow& r) { r.reads.insert(r.reads.end(), what.begin(), what.end()); });
+  }
+  Row readsIfThere(std::vector<Read> what) const {
+    return with([&](PassRow& r) {
+      for (Read& read : what) {
+        read.mayLack = true;
+        r.reads.push_back(read);
+      }
+    });
   }
   Row walksRows() const; ///< reads them, and looks up in the maps
   Row writes(std::vector<R> what) const {
@@ -77,11 +85,12 @@ std::vector<PassRow> makeRows() {
   constexpr Joining kSumOfLights = Joining::SumOfLights, kSumOfDraws = Joining::SumOfDraws;
   return {
       Row(Pass::Exact, "exact", "passes/exact.frag", S::Image)
-          .reads({R::SceneDepth, R::SceneDepthSamples, R::ShadowMap, R::GlassColour, R::GlassDepth, R::Curves})
+          .readsIfThere({R::SceneDepth, R::SceneDepthSamples}) // one of the two
+          .reads({R::ShadowMap, R::GlassColour, R::GlassDepth, R::Curves})
           .into(Into::Destination)
           .joins(kSumOfLights),
       Row(Pass::Transmittance, "transmittance", "passes/transmittance.frag", S::Image)
-          .reads({R::SceneDepth, R::SceneDepthSamples})
+          .readsIfThere({R::SceneDepth, R::SceneDepthSamples}) // one of the two
           .into(Into::Destination)
           .joins(kSumOfLights),
       Row(Pass::Composite, "composite", "passes/composite.frag")
@@ -150,7 +159,8 @@ std::vector<PassRow> makeRows() {
           .options({{"COARSER", {kUndefined, 1}}})
           .sameForAllLights(),
       Row(Pass::PixelTree, "pixels", "passes/march.frag", S::ImageOfMarch)
-          .reads({R::SceneDepth, R::SliceTable, R::SampleEnds})
+          .reads({R::SceneDepth, R::SliceTable})
+          .readsIfThere({R::SampleEnds}) // of the march, whose program it shares
           .walksRows()
           .into(Into::Destination)
           .joins(kSumOfLights),
@@ -218,7 +228,8 @@ std::vector<PassRow> makeRows() {
           .into(Into::Destination)
           .joins(kSumOfLights),
       Row(Pass::FixupAllTexels, "fix-up", "passes/exact.frag", S::Image)
-          .reads({R::SceneDepth, R::SceneDepthSamples, R::ShadowMap, R::GlassColour, R::GlassDepth, R::Curves})
+          .readsIfThere({R::SceneDepth, R::SceneDepthSamples}) // one of the two
+          .reads({R::ShadowMap, R::GlassColour, R::GlassDepth, R::Curves})
           .into(Into::Destination)
           .joins(kSumOfLights),
       Row(Pass::FixupOwnLine, "fix-up", "passes/fixup.frag")
@@ -256,14 +267,16 @@ std::vector<PassRow> makeRows() {
           .writes({R::ChangedEnds})
           .sameForAllLights(),
       Row(Pass::ChangedSegments, "changed segments", "passes/changedSegments.frag", S::Slices)
-          .reads({R::SliceTable, R::SampleEnds, R::LastSampleEnds, R::ChangedEnds, R::ChangedParts})
+          .reads({R::SliceTable, R::SampleEnds})
+          .readsIfThere({R::LastSampleEnds, R::ChangedEnds, R::ChangedParts}) // of what is compared
           .writes({R::ChangedSegments}),
       Row(Pass::ChangedSlices, "changed slices", "passes/changedSlices.frag", S::Columns)
-          .reads({R::SliceTable, R::ChangedSegments, R::ChangedParts})
+          .reads({R::SliceTable, R::ChangedSegments})
+          .readsIfThere({R::ChangedParts})
           .writes({R::ChangedSlices}),
       Row(Pass::ChangedTiles, "tiles", "passes/changedTiles.frag")
-          .reads({R::SceneDepth, R::LastDepth, R::SliceTable, R::SampleEnds, R::ChangedSegments, R::ChangedSlices,
-                  R::MovedSlices})
+          .reads({R::SceneDepth, R::SliceTable, R::SampleEnds, R::ChangedSegments, R::ChangedSlices})
+          .readsIfThere({R::LastDepth, R::MovedSlices})
           .writes({R::ChangedTiles})
           .sameForAllLights(),
       Row(Pass::DebugSlices, "debug view", "passes/debugSlices.frag")

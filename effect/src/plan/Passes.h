@@ -104,7 +104,8 @@ struct Read {
   Read(Resource what, const char* sampler = nullptr)
       : resource(what), as(sampler) {} // NOLINT: a list of resources is one of these
   Resource resource;
-  const char* as; ///< the sampler's name, if it is not the resource's
+  const char* as;       ///< the sampler's name, if it is not the resource's
+  bool mayLack = false; ///< a draw may have none, and its program does not look then
 };
 
 /// A definition beside those of the light, and the values that it may take. kUndefined: it is not defined. One value:

@@ -1,5 +1,6 @@
 #include "plan/PlanFrame.h"
 
+#include "DebugViews.h"
 #include "SampleBudget.h"
 #include "optics/Blocks.h"
 #include "optics/LightVolume.h"
@@ -14,9 +15,7 @@ namespace tyndall {
 namespace {
 
 bool hasDebugView(const Frame& frame) { return frame.settings.debugView != DebugView::Composite; }
-bool showsSlices(const Frame& frame) {
-  return frame.settings.debugView >= DebugView::Slices && frame.settings.debugView <= DebugView::NodeVisits;
-}
+bool showsSlices(const Frame& frame) { return rowOf(frame.settings.debugView)->shown != Shown::Picture; }
 // Slices take one depth per pixel: a multisampled frame is rendered by exact.
 bool usesSlices(const Frame& frame) {
   return frame.settings.technique != Technique::Exact && !frame.depth.multisampled;

@@ -178,6 +178,21 @@ TEST_CASE("pictures of one pixel, one column and one row") {
     }
 }
 
+TEST_CASE("a light on the one row of an image is left in both directions") {
+  for (const double side : {-0.15, 0.0, 0.2}) {
+    CAPTURE(side);
+    tests::ShaftRig rig(400, 1);
+    Light light = tests::shaftLight(LightKind::Directional);
+    light.direction = {side, 0, 1};
+    light.shadow.views = tests::shadowViews(light, 1);
+    rig.addLight(light, 256);
+    for (const Technique technique : {Technique::Tree, Technique::Epipolar}) { // slices run through all pixels
+      checkFinite(rig, technique);
+      CHECK(rig.error(rig.scene.outputs().inscatter).rRmse < 2e-3);
+    }
+  }
+}
+
 TEST_CASE("shadow views whose rows do not fit into one texture take several draws") {
   for (const float spreadThreshold : {kInf, 1e-3F})
     for (const Technique technique : {Technique::Tree, Technique::Epipolar}) {
