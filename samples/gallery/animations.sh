@@ -5,9 +5,10 @@ set -eu
 cd "$(dirname "$0")/../.."
 # shellcheck source=samples/setup.sh
 . samples/setup.sh
-install_packages ffmpeg
+install_packages ffmpeg webp
 
 frames=out/gallery/frames
+rm -rf "$frames"
 mkdir -p "$frames"
 
 # render NAME FIRST-LAST SCENE [OPTION...]: frames of an animation, each pixel the mean of 2x2.
@@ -20,25 +21,24 @@ render() {
   "$@"
 }
 
-# film OUT QUALITY INPUT...: an animated WebP that loops, 24 frames a second.
+# film NAME QUALITY: its frames as an animated WebP that loops, 24 a second. All are key frames: what is kept from frame to
+# frame shows as blocks in fog.
 film() {
-  out=out/gallery/$1.webp quality=$2
-  shift 2
-  ffmpeg -v error -y -framerate 24 "$@" -c:v libwebp_anim -quality "$quality" -compression_level 6 -loop 0 "$out"
-  ls -l "$out"
+  img2webp -loop 0 -kmin 0 -kmax 1 -lossy -q "$2" -m 6 -d 42 "$frames/$1"-*.png -o "out/gallery/$1.webp"
+  ls -l "out/gallery/$1.webp"
 }
 
 say "Stage lights"
 render sweep 0-119 sweep --size 640x360 --shadow-size 2048
-film sweep 50 -i "$frames/sweep-%04d.png"
+film sweep 75
 
 # The first frame draws all: the loop, a swing to and fro, is the 150 after it. What is not drawn anew is dimmed.
 say "Pendulum"
-render pendulum 0-150 pendulum --size 480x270
+render picture 0-150 pendulum --size 480x270
 render redrawn 0-150 pendulum --size 480x270 --view redrawn
-film pendulum 50 -start_number 1 -i "$frames/pendulum-%04d.png" \
-  -framerate 24 -start_number 1 -i "$frames/redrawn-%04d.png" \
+ffmpeg -v error -y -start_number 1 -i "$frames/picture-%04d.png" -start_number 1 -i "$frames/redrawn-%04d.png" \
   -filter_complex "[0]format=gbrp,split[picture][below];[below]colorlevels=romax=.35:gomax=.35:bomax=.35[dimmed];
     [1]format=gbrp,colorlevels=romax=.65:gomax=.16:bomax=.06[redrawn];[dimmed][redrawn]blend=all_mode=addition[mask];
-    [picture][mask]hstack"
+    [picture][mask]hstack" "$frames/pendulum-%04d.png"
+film pendulum 60
 say "Done: look at out/gallery/sweep.webp and pendulum.webp"
