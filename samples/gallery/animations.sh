@@ -40,5 +40,5 @@ ffmpeg -v error -y -start_number 1 -i "$frames/picture-%04d.png" -start_number 1
   -filter_complex "[0]format=gbrp,split[picture][below];[below]colorlevels=romax=.35:gomax=.35:bomax=.35[dimmed];
     [1]format=gbrp,colorlevels=romax=.65:gomax=.16:bomax=.06[redrawn];[dimmed][redrawn]blend=all_mode=addition[mask];
     [picture][mask]hstack" "$frames/pendulum-%04d.png"
-film pendulum 60
+film pendulum 70
 say "Done: look at out/gallery/sweep.webp and pendulum.webp"
