@@ -10,7 +10,7 @@ install_packages $build_packages
 
 say "Building into build/"
 # A build of tests/run.sh keeps its tests; without one, what only tests need is not asked for.
-[ -f build/build.ninja ] || cmake -S . -B build -G Ninja -DTYNDALL_BUILD_TESTS=OFF
+cmake -S . -B build -G Ninja -DTYNDALL_BUILD_SAMPLES=ON
 cmake --build build --target tyndall-render tyndall_scenes
 
 # picture SCENE [OPTION...]: 960x540 pixels, each the mean of 2x2. Fails where a scene lacks light, camera or medium.

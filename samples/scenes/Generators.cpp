@@ -11,6 +11,7 @@ const std::map<std::string, std::function<Scene()>>& generators() {
       {"cage", makeCage},
       {"stage", [] { return makeStage(false); }},
       {"concert", [] { return makeStage(true); }},
+      {"sweep", makeSweep},
       {"projector", makeProjector},
       {"orrery", makeOrrery},
       {"pendulum", makePendulum},

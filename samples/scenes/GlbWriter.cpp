@@ -128,10 +128,13 @@ int appendMesh(Document& document, const std::string& name, const std::vector<Su
   return append(document, "meshes", {{"name", name}, {"primitives", primitives}});
 }
 
-/// Appends a node and shows it in the scene.
-int appendNode(Document& document, json node) {
+/// Appends a node and shows it in the scene, or, with a parent, as part of that.
+int appendNode(Document& document, json node, int parent = -1) {
   const int index = append(document, "nodes", std::move(node));
-  document.root["scenes"][0]["nodes"].push_back(index);
+  if (parent < 0)
+    document.root["scenes"][0]["nodes"].push_back(index);
+  else
+    document.root["nodes"][static_cast<std::size_t>(parent)]["children"].push_back(index);
   return index;
 }
 
@@ -166,13 +169,17 @@ void appendMotion(Document& document, int node, const std::vector<Pose>& poses) 
   appendChannel(document, node, "rotation", input, "VEC4", rotations);
 }
 
-void appendBodies(Document& document, const Scene& scene, const std::vector<int>& materials) {
-  if (scene.bodies.empty()) return;
+/// Returns the node of each.
+std::vector<int> appendBodies(Document& document, const Scene& scene, const std::vector<int>& materials) {
+  std::vector<int> nodes;
+  if (scene.bodies.empty()) return nodes;
   document.root["animations"][0]["name"] = scene.name;
   for (const Body& body : scene.bodies) {
     const int mesh = appendMesh(document, body.name, body.surfaces, materials);
-    appendMotion(document, appendNode(document, {{"name", body.name}, {"mesh", mesh}}), body.poses);
+    nodes.push_back(appendNode(document, {{"name", body.name}, {"mesh", mesh}}));
+    appendMotion(document, nodes.back(), body.poses);
   }
+  return nodes;
 }
 
 void appendStrands(Document& document, const Strands& strands, const std::vector<int>& materials) {
@@ -240,7 +247,7 @@ const char* nameOf(LightKind kind) {
   return "directional";
 }
 
-void appendLight(Document& document, const Light& source) {
+void appendLight(Document& document, const Light& source, const std::vector<int>& bodies) {
   json light = {{"name", source.name},
                 {"type", nameOf(source.kind)},
                 {"color", listOf(source.colour)},
@@ -253,7 +260,7 @@ void appendLight(Document& document, const Light& source) {
   json node = nodeLooking(source.name, source.position, source.direction);
   node["extensions"][kLights]["light"] = lights.size();
   lights.push_back(std::move(light));
-  appendNode(document, std::move(node));
+  appendNode(document, std::move(node), source.body < 0 ? -1 : bodies[static_cast<std::size_t>(source.body)]);
 }
 
 json extrasOf(const Scene& scene) {
@@ -272,14 +279,14 @@ Document::Document(const Scene& scene) {
   const std::vector<int> materials = appendMaterials(*this, scene);
   const int mesh = appendMesh(*this, scene.name, scene.surfaces, materials);
   appendNode(*this, {{"name", scene.name}, {"mesh", mesh}});
-  appendBodies(*this, scene, materials);
+  const std::vector<int> bodies = appendBodies(*this, scene, materials);
   for (const Strands& strands : scene.strands)
     appendStrands(*this, strands, materials);
   for (const Smoke& smoke : scene.smoke)
     appendSmoke(*this, smoke);
   appendCamera(*this, scene.camera);
   for (const Light& light : scene.lights)
-    appendLight(*this, light);
+    appendLight(*this, light, bodies);
   root["buffers"][0]["byteLength"] = bytes.size();
 }
 

@@ -86,6 +86,7 @@ struct Light {
   glm::dvec3 direction{0, -1, 0}; ///< where the light travels to
   double innerConeAngle = 20;     ///< degrees, half angle
   double outerConeAngle = 25;     ///< degrees, half angle
+  int body = -1;                  ///< that carries it: position and direction are in its coordinates; -1: none
 };
 
 struct Constituent {
@@ -123,6 +124,8 @@ Scene makeTerrain();
 Scene makeCage();
 /// Four spot lights, or the twelve of a concert.
 Scene makeStage(bool concert);
+/// The stage with lamps that turn: their beams sweep.
+Scene makeSweep();
 Scene makeProjector();
 Scene makeOrrery();
 

@@ -127,7 +127,17 @@ void drapery(MeshBuilder& mesh, const Palette& p) {
   });
 }
 
-void rig(MeshBuilder& mesh, const Palette& p, const std::vector<Lamp>& lamps) {
+/// Around the light at the origin, which shines along +y.
+void head(MeshBuilder& mesh, const Palette& p, const Lamp& lamp) {
+  mesh.material(p.blackSteel);
+  lampHousing(mesh);
+  if (lamp.hasWheel)
+    wheel(mesh, 0.42, 0.2, 10);
+  else
+    louvre(mesh, 0.42, 0.2, 6);
+}
+
+void trusses(MeshBuilder& mesh, const Palette& p) {
   mesh.frame(glm::dmat4(1)).material(p.steel);
   truss(mesh, {-7.0, 6.95, -5.75}, {7.0, 6.95, -5.75}, 0.42);
   truss(mesh, {-7.0, 7.05, -1.25}, {7.0, 7.05, -1.25}, 0.36);
@@ -136,15 +146,51 @@ void rig(MeshBuilder& mesh, const Palette& p, const std::vector<Lamp>& lamps) {
   for (const double x : {-5.0, 0.0, 5.0})
     for (const double z : {-5.75, -1.25})
       mesh.tube({{x, 7.1, z}, {x, kCeiling, z}}, 0.012, 6);
+}
+
+void rig(MeshBuilder& mesh, const Palette& p, const std::vector<Lamp>& lamps) {
+  trusses(mesh, p);
   for (const Lamp& lamp : lamps) {
     const glm::dvec3 beam = glm::normalize(lamp.target - lamp.position);
-    mesh.material(p.blackSteel).frame(frameAt(lamp.position, beam, {0, 0, 1}));
-    lampHousing(mesh);
-    if (lamp.hasWheel)
-      wheel(mesh, 0.42, 0.2, 10);
-    else
-      louvre(mesh, 0.42, 0.2, 6);
+    mesh.frame(frameAt(lamp.position, beam, {0, 0, 1}));
+    head(mesh, p, lamp);
     mesh.frame(glm::dmat4(1)).tube({lamp.position - beam * 0.42, {lamp.position.x, 6.95, lamp.position.z}}, 0.022, 8);
+  }
+}
+
+constexpr double kSweepSeconds = 5; ///< a loop of 120 frames
+constexpr int kSweepSteps = 60;
+
+/// What the i-th lamp is aimed at: neighbours go opposite ways, and no two are ever quite together.
+glm::dvec3 sweptTarget(const Lamp& lamp, std::size_t i, double turn) {
+  const double phase = glm::two_pi<double>() * (turn + 0.19 * static_cast<double>(i));
+  const double way = i % 2 == 0 ? 1 : -1;
+  return lamp.target + glm::dvec3(2.6 * way * std::sin(phase), 0.7 * std::sin(2 * phase), 0.5 * std::cos(phase));
+}
+
+Body turningHead(const Scene& scene, const Palette& p, const Lamp& lamp, std::size_t i) {
+  Body body;
+  body.name = lamp.name + std::string(" head");
+  MeshBuilder mesh(scene, body);
+  head(mesh, p, lamp);
+  for (int step = 0; step <= kSweepSteps; ++step) {
+    const double turn = static_cast<double>(step % kSweepSteps) / kSweepSteps;
+    const glm::dmat3 aimed(frameAt(lamp.position, sweptTarget(lamp, i, turn) - lamp.position, {0, 0, 1}));
+    body.poses.push_back({kSweepSeconds * step / kSweepSteps, lamp.position, glm::quat_cast(aimed)});
+  }
+  return body;
+}
+
+/// Heads that turn under the trusses, each with its light.
+void turningRig(Scene& scene, MeshBuilder& mesh, const Palette& p, const std::vector<Lamp>& lamps) {
+  trusses(mesh, p);
+  mesh.material(p.blackSteel);
+  for (std::size_t i = 0; i < lamps.size(); ++i) {
+    mesh.tube({lamps[i].position + glm::dvec3(0, 0.35, 0), {lamps[i].position.x, 6.95, lamps[i].position.z}}, 0.022, 8);
+    scene.lights[i].body = static_cast<int>(scene.bodies.size());
+    scene.lights[i].position = glm::dvec3(0);
+    scene.lights[i].direction = {0, 1, 0};
+    scene.bodies.push_back(turningHead(scene, p, lamps[i], i));
   }
 }
 
@@ -169,12 +215,7 @@ Palette paint(Scene& scene) {
   return p;
 }
 
-} // namespace
-} // namespace stage
-
-Scene makeStage(bool concert) {
-  using namespace stage;
-  const std::vector<Lamp> lamps = lampsOf(concert);
+Scene makeHouse(const std::vector<Lamp>& lamps, bool turning) {
   Scene scene;
   scene.camera = {{1.2, 2.5, 7.6}, {-0.1, 3.45, -3.5}, 52, 0.1, 60};
   for (const Lamp& lamp : lamps) {
@@ -198,10 +239,20 @@ Scene makeStage(bool concert) {
   house(mesh, palette);
   proscenium(mesh, palette);
   drapery(mesh, palette);
-  rig(mesh, palette, lamps);
+  if (turning)
+    turningRig(scene, mesh, palette, lamps);
+  else
+    rig(mesh, palette, lamps);
   props(mesh, palette);
   seats(mesh, palette);
   return scene;
 }
+
+} // namespace
+} // namespace stage
+
+Scene makeStage(bool concert) { return stage::makeHouse(stage::lampsOf(concert), false); }
+
+Scene makeSweep() { return stage::makeHouse(stage::lampsOf(false), true); }
 
 } // namespace scenes

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <scene/GltfLoader.h>
 #include <scenes/Generators.h>
 #include <scenes/GlbWriter.h>
@@ -34,6 +35,13 @@ tyndall::LightKind kindOf(scenes::LightKind kind) {
   return kind == scenes::LightKind::Spot ? tyndall::LightKind::Spot : tyndall::LightKind::Directional;
 }
 
+/// Where what carries a light is at the start.
+glm::dmat4 carrierOf(const scenes::Scene& scene, const scenes::Light& light) {
+  if (light.body < 0) return glm::dmat4(1);
+  const scenes::Pose& pose = scene.bodies[static_cast<std::size_t>(light.body)].poses.front();
+  return glm::translate(glm::dmat4(1), pose.translation) * glm::mat4_cast(pose.rotation);
+}
+
 void checkLights(const scenes::Scene& written, const host::Scene& read) {
   const std::vector<glm::dmat4> pose = host::poseAt(read, 0);
   const std::vector<std::size_t> nodes = nodesWith(read, &host::Node::light);
@@ -48,8 +56,9 @@ void checkLights(const scenes::Scene& written, const host::Scene& read) {
     CHECK(light.kind == kindOf(source.kind));
     CHECK(isNear(light.colour, source.colour * source.intensity));
     CHECK(light.range == tyndall::kInfinity);
-    CHECK(isNear(glm::dvec3(pose[nodes[i]][3]), source.position));
-    CHECK(isNear(lookOf(pose[nodes[i]]), glm::normalize(source.direction)));
+    const glm::dmat4 carrier = carrierOf(written, source);
+    CHECK(isNear(glm::dvec3(pose[nodes[i]][3]), glm::dvec3(carrier * glm::dvec4(source.position, 1))));
+    CHECK(isNear(lookOf(pose[nodes[i]]), glm::dmat3(carrier) * glm::normalize(source.direction)));
     if (source.kind != scenes::LightKind::Spot) continue;
     CHECK(light.innerConeAngle == Approx(glm::radians(source.innerConeAngle)).epsilon(1e-12));
     CHECK(light.outerConeAngle == Approx(glm::radians(source.outerConeAngle)).epsilon(1e-12));
