@@ -1,8 +1,8 @@
 // The sample scenes under light of any unit: scaled by k, the inscatter is k times what it was.
 #include "reference/Metrics.h"
 #include "render/SceneAnswers.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <gl/ReadBack.h>
 #include <render/RenderFrame.h>
 

@@ -1,7 +1,7 @@
 #include "support/TestContext.h"
 
 #define CATCH_CONFIG_EXTERNAL_INTERFACES
-#include <catch2/catch.hpp>
+#include "support/Catch.h"
 #include <cstdlib>
 
 namespace tests {

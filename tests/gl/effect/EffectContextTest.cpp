@@ -4,9 +4,9 @@
 #include "GlState.h"
 #include "SceneRig.h"
 #include "gl/ReadBack.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <functional>
 #include <map>
 #include <set>

@@ -2,9 +2,9 @@
 #include "gl/ReadBack.h"
 #include "gl/RenderTargets.h"
 #include "scene/Error.h"
+#include "support/Catch.h"
 #include "support/TestContext.h"
 
-#include <catch2/catch.hpp>
 #include <cstdlib>
 
 using host::Context;

@@ -1,6 +1,6 @@
 #include "RunTool.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <scene/ImageFile.h>
