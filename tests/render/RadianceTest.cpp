@@ -35,7 +35,7 @@ TEST_CASE("inscatter of every sample scene scales with its lights, in every tech
   for (const std::string& scene : tests::sampleScenes()) {
     render::FrameRenderer renderer(tests::sampleOptions(scene, kWidth, kHeight, 512));
     renderer.draw(0);
-    const CreateResult created = Effect::create({renderer.loader(), PassTiming::Off});
+    const CreateResult created = Effect::create({renderer.context().loader(), PassTiming::Off});
     REQUIRE(created.effect);
     for (const Technique technique : {Technique::Exact, Technique::Tree, Technique::Epipolar, Technique::LowRank}) {
       Frame frame = renderer.frame();

@@ -2,6 +2,8 @@
 
 #define CATCH_CONFIG_EXTERNAL_INTERFACES
 #include "support/Catch.h"
+
+#include <cstdio>
 #include <cstdlib>
 
 namespace tests {
@@ -14,6 +16,14 @@ host::Context* theContext = nullptr; ///< null until a test asks for it
 class GlErrorListener : public Catch::TestEventListenerBase {
 public:
   using TestEventListenerBase::TestEventListenerBase;
+
+  void testRunStarting(const Catch::TestRunInfo& /*info*/) override {
+    constexpr int kSkipped = 77; // CMake's SKIP_RETURN_CODE of these tests
+    if (testContextKind() == host::ContextKind::Osmesa && !host::isOsmesaInstalled()) {
+      std::puts("skipped: libOSMesa is not installed");
+      std::exit(kSkipped);
+    }
+  }
 
   void sectionEnded(const Catch::SectionStats& stats) override {
     if (!theContext) {
@@ -31,7 +41,7 @@ CATCH_REGISTER_LISTENER(GlErrorListener)
 
 host::ContextKind testContextKind() {
   const char* name = std::getenv("TYNDALL_TEST_CONTEXT");
-  return host::parseContextKind(name ? name : "osmesa");
+  return name ? host::parseContextKind(name) : host::defaultContextKind();
 }
 
 host::Context& testContext() {
