@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 # shellcheck source=samples/setup.sh
 . samples/setup.sh
 
-release=trixie folder= mirror=http://deb.debian.org/debian keep=
+release=trixie folder='' mirror=http://deb.debian.org/debian keep=''
 fail() { echo "bare.sh: $*" >&2; exit 2; }
 while [ $# -gt 0 ]; do
   case $1 in
@@ -32,6 +32,7 @@ elif [ -e "$folder" ]; then
   [ -n "$keep" ] || fail "--folder $folder: exists; --keep enters it again"
   [ -e "$folder/etc/debian_version" ] || fail "--folder $folder: exists, and holds no Debian"
 fi
+# shellcheck disable=SC2317 # the trap calls it
 leave() { [ -n "$keep" ] || rm -rf --one-file-system "$folder"; }
 trap leave EXIT
 trap 'exit 130' INT
@@ -59,7 +60,7 @@ copy_tree
 # shellcheck disable=SC2016 # the inner shell expands them
 enter='mount -t proc proc "$1/proc" && mount -t tmpfs -o mode=1777 tmpfs "$1/dev/shm" && exec chroot "$1" \
   env -i HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin sh -c "cd /tyndall && $2"'
-status=0 times=
+status=0 times=''
 for command in "$@"; do
   say "Debian $(cat "$folder/etc/debian_version"): $command"
   start=$(date +%s) result=passed
