@@ -38,13 +38,21 @@ trap leave EXIT
 trap 'exit 130' INT
 trap 'exit 143' TERM
 
-# The working tree with its uncommitted changes. Build folders of an earlier run stay.
+# The working tree with its uncommitted changes. Build folders of an earlier run stay, and so do the times of what has not
+# changed: what has is newer than all that was built from it.
 copy_tree() {
-  mkdir -p "$folder/tyndall"
-  find "$folder/tyndall" -mindepth 1 -maxdepth 1 ! -name 'build*' ! -name out -exec rm -rf {} +
+  fresh=$folder/tyndall.new
+  rm -rf "$fresh" && mkdir -p "$fresh" "$folder/tyndall"
   git -c core.quotePath=off ls-files --cached --others --exclude-standard | while read -r file; do
     [ ! -e "$file" ] || echo "$file"
-  done | tar -cf - -T - | tar -xf - -C "$folder/tyndall"
+  done | tar -cf - -T - | tar -xmf - -C "$fresh"
+  for kept in "$folder"/tyndall/build* "$folder"/tyndall/out; do
+    [ ! -e "$kept" ] || mv "$kept" "$fresh"
+  done
+  (cd "$folder/tyndall" && find . -type f) | while read -r file; do
+    if cmp -s "$folder/tyndall/$file" "$fresh/$file"; then touch -r "$folder/tyndall/$file" "$fresh/$file"; fi
+  done
+  rm -rf "$folder/tyndall" && mv "$fresh" "$folder/tyndall"
 }
 
 if [ -e "$folder/etc/debian_version" ]; then

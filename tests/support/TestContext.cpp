@@ -15,7 +15,7 @@ host::Context* theContext = nullptr; ///< null until a test asks for it
 /// Reports GL errors while the section in which they arose still runs, so that they count as its failures.
 class GlErrorListener : public Catch::TestEventListenerBase {
 public:
-  using TestEventListenerBase::TestEventListenerBase;
+  using Catch::TestEventListenerBase::TestEventListenerBase;
 
   void testRunStarting(const Catch::TestRunInfo& /*info*/) override {
     constexpr int kSkipped = 77; // CMake's SKIP_RETURN_CODE of these tests
