@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 . samples/setup.sh
 
 # shellcheck disable=SC2086,SC2154 # lists of words, from setup.sh
-install_packages $build_packages $test_packages
+install_packages $build_packages $test_packages $all_packages
 
 say "Building with g++ into build/"
 cmake -S . -B build -G Ninja -DTYNDALL_BUILD_TESTS=ON
@@ -15,7 +15,7 @@ cmake --build build
 
 say "Building with clang++ and sanitizers into build-sanitize/"
 cmake -S . -B build-sanitize -G Ninja -DTYNDALL_BUILD_TESTS=ON -DTYNDALL_SANITIZE=ON -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-  -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++
+  -DCMAKE_C_COMPILER="clang-$clang_version" -DCMAKE_CXX_COMPILER="clang++-$clang_version"
 cmake --build build-sanitize
 
 say "Formatting and static analysis"

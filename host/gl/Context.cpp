@@ -3,6 +3,7 @@
 #include "gl/Gl.h"
 #include "gl/NativeContext.h"
 #include "scene/Error.h"
+#include "scene/Tool.h"
 
 namespace host {
 
@@ -81,6 +82,17 @@ const char* nameOf(ContextKind kind) {
     return "glfw";
   }
   return "?";
+}
+
+ContextKind defaultContextKind() {
+  static const bool isOsmesa = [] {
+    const bool isInstalled = isOsmesaInstalled();
+    if (!isInstalled) {
+      say("context egl is used: libOSMesa is not installed");
+    }
+    return isInstalled;
+  }();
+  return isOsmesa ? ContextKind::Osmesa : ContextKind::Egl;
 }
 
 std::unique_ptr<Context> Context::create(ContextKind kind, const ContextOptions& options) {

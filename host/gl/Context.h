@@ -17,6 +17,12 @@ enum class ContextKind { Osmesa, Egl, Glfw };
 ContextKind parseContextKind(const std::string& name);
 const char* nameOf(ContextKind kind);
 
+bool isOsmesaInstalled(); ///< Mesa has not had it since version 25.1
+
+/// Of whoever needs no screen and names no kind: OSMesa or, which is said once on standard error, EGL where it is
+/// missing.
+ContextKind defaultContextKind();
+
 struct ContextOptions {
   bool debug = true; ///< collect the driver's debug messages, synchronously
 };

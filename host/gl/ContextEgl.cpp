@@ -1,16 +1,15 @@
+#include "gl/Library.h"
 #include "gl/NativeContext.h"
 #include "scene/Error.h"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
-#include <dlfcn.h>
 
 namespace host {
 
 namespace {
 
-/// libEGL and a display without a screen. Opened once and kept: contexts share them, and drivers do not survive being
-/// unloaded.
+/// The functions of libEGL, and a display without a screen, which contexts share.
 struct EglLibrary {
   decltype(&eglGetProcAddress) getProcAddress = nullptr;
   decltype(&eglQueryString) queryString = nullptr;
@@ -23,14 +22,6 @@ struct EglLibrary {
   decltype(&eglMakeCurrent) makeCurrent = nullptr;
   EGLDisplay display = EGL_NO_DISPLAY;
 };
-
-template <class Function>
-void resolve(void* library, const char* name, Function& function) {
-  function = reinterpret_cast<Function>(dlsym(library, name));
-  if (!function) {
-    throw Error(std::string("context egl: libEGL lacks ") + name);
-  }
-}
 
 bool contains(const char* extensions, const std::string& name) {
   return extensions && (std::string(extensions) + " ").find(name + " ") != std::string::npos;
@@ -79,20 +70,17 @@ void openDisplay(EglLibrary& egl) {
 }
 
 EglLibrary openEgl() {
-  void* handle = dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL);
-  if (!handle) {
-    throw Error("context egl: libEGL.so.1 cannot be opened; is libegl1 installed?");
-  }
+  const Library library("egl", {"libEGL.so.1"}, "libegl1");
   EglLibrary egl;
-  resolve(handle, "eglGetProcAddress", egl.getProcAddress);
-  resolve(handle, "eglQueryString", egl.queryString);
-  resolve(handle, "eglGetDisplay", egl.getDisplay);
-  resolve(handle, "eglInitialize", egl.initialize);
-  resolve(handle, "eglBindAPI", egl.bindApi);
-  resolve(handle, "eglChooseConfig", egl.chooseConfig);
-  resolve(handle, "eglCreateContext", egl.createContext);
-  resolve(handle, "eglDestroyContext", egl.destroyContext);
-  resolve(handle, "eglMakeCurrent", egl.makeCurrent);
+  library.resolve("eglGetProcAddress", egl.getProcAddress);
+  library.resolve("eglQueryString", egl.queryString);
+  library.resolve("eglGetDisplay", egl.getDisplay);
+  library.resolve("eglInitialize", egl.initialize);
+  library.resolve("eglBindAPI", egl.bindApi);
+  library.resolve("eglChooseConfig", egl.chooseConfig);
+  library.resolve("eglCreateContext", egl.createContext);
+  library.resolve("eglDestroyContext", egl.destroyContext);
+  library.resolve("eglMakeCurrent", egl.makeCurrent);
   openDisplay(egl);
   if (!contains(egl.queryString(egl.display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context")) {
     throw Error("context egl: the display lacks EGL_KHR_surfaceless_context");

@@ -1,46 +1,32 @@
+#include "gl/Library.h"
 #include "gl/NativeContext.h"
 #include "scene/Error.h"
-
-#include <GL/osmesa.h>
-#include <dlfcn.h>
 
 namespace host {
 
 namespace {
 
-/// The functions of libOSMesa, which is opened once and stays: drivers do not survive being unloaded.
+// Of OSMesa's header, which newer Mesas do not have any more.
+using OsmesaHandle = struct OsmesaHandleTag*;
+constexpr int kFormat = 0x22, kProfile = 0x33, kCoreProfile = 0x34, kMajorVersion = 0x36, kMinorVersion = 0x37;
+constexpr int kRgba = 0x1908;              // GL_RGBA
+constexpr unsigned kUnsignedByte = 0x1401; // GL_UNSIGNED_BYTE
+
 struct OsmesaLibrary {
-  decltype(&OSMesaCreateContextAttribs) createContextAttribs = nullptr;
-  decltype(&OSMesaDestroyContext) destroyContext = nullptr;
-  decltype(&OSMesaMakeCurrent) makeCurrent = nullptr;
-  decltype(&OSMesaGetProcAddress) getProcAddress = nullptr;
+  OsmesaHandle (*createContextAttribs)(const int* attributes, OsmesaHandle shared) = nullptr;
+  void (*destroyContext)(OsmesaHandle context) = nullptr;
+  unsigned char (*makeCurrent)(OsmesaHandle context, void* buffer, unsigned type, int width, int height) = nullptr;
+  void (*(*getProcAddress)(const char* name))() = nullptr;
 };
 
-template <class Function>
-void resolve(void* library, const char* name, Function& function) {
-  function = reinterpret_cast<Function>(dlsym(library, name));
-  if (!function) {
-    throw Error(std::string("context osmesa: libOSMesa lacks ") + name);
-  }
-}
-
 OsmesaLibrary openOsmesa() {
-  void* handle = nullptr;
-  for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"}) {
-    handle = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
-    if (handle) {
-      break;
-    }
-  }
-  if (!handle) {
-    throw Error("context osmesa: libOSMesa.so.8 cannot be opened; is libosmesa6 installed?");
-  }
-  OsmesaLibrary library;
-  resolve(handle, "OSMesaCreateContextAttribs", library.createContextAttribs);
-  resolve(handle, "OSMesaDestroyContext", library.destroyContext);
-  resolve(handle, "OSMesaMakeCurrent", library.makeCurrent);
-  resolve(handle, "OSMesaGetProcAddress", library.getProcAddress);
-  return library;
+  const Library library("osmesa", {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"}, "libosmesa6");
+  OsmesaLibrary osmesa;
+  library.resolve("OSMesaCreateContextAttribs", osmesa.createContextAttribs);
+  library.resolve("OSMesaDestroyContext", osmesa.destroyContext);
+  library.resolve("OSMesaMakeCurrent", osmesa.makeCurrent);
+  library.resolve("OSMesaGetProcAddress", osmesa.getProcAddress);
+  return osmesa;
 }
 
 const OsmesaLibrary& osmesa() {
@@ -54,15 +40,7 @@ class OsmesaContext final : public NativeContext {
 public:
   OsmesaContext() {
     for (const auto& [major, minor] : kCoreVersions) {
-      const int attributes[] = {OSMESA_FORMAT,
-                                OSMESA_RGBA,
-                                OSMESA_PROFILE,
-                                OSMESA_CORE_PROFILE,
-                                OSMESA_CONTEXT_MAJOR_VERSION,
-                                major,
-                                OSMESA_CONTEXT_MINOR_VERSION,
-                                minor,
-                                0};
+      const int attributes[] = {kFormat, kRgba, kProfile, kCoreProfile, kMajorVersion, major, kMinorVersion, minor, 0};
       context_ = osmesa().createContextAttribs(attributes, nullptr);
       if (context_) {
         return;
@@ -73,20 +51,29 @@ public:
   ~OsmesaContext() override { osmesa().destroyContext(context_); }
 
   void bind() override {
-    if (!osmesa().makeCurrent(context_, buffer_, GL_UNSIGNED_BYTE, kBufferSide, kBufferSide)) {
+    if (!osmesa().makeCurrent(context_, buffer_, kUnsignedByte, kBufferSide, kBufferSide)) {
       throw Error("context osmesa: cannot be made current");
     }
   }
-  void unbind() override { osmesa().makeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+  void unbind() override { osmesa().makeCurrent(nullptr, nullptr, kUnsignedByte, 0, 0); }
   Context::Loader loader() const override { return load; }
 
 private:
   static constexpr int kBufferSide = 4; ///< pixels of the default framebuffer, which nothing draws to
-  OSMesaContext context_ = nullptr;
+  OsmesaHandle context_ = nullptr;
   unsigned char buffer_[4 * kBufferSide * kBufferSide] = {};
 };
 
 } // namespace
+
+bool isOsmesaInstalled() {
+  try {
+    osmesa();
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
 
 std::unique_ptr<NativeContext> createOsmesaContext(const ContextOptions& /*options*/) {
   return std::make_unique<OsmesaContext>();

@@ -293,7 +293,8 @@ void addOptions(CLI::App& app, Typed& typed) {
   app.add_flag("--no-reuse", typed.noReuse, "draw every frame in full, not only what has moved since the last one");
   app.add_flag("--detect-changes", typed.detectChanges, "find what has moved by comparison, not by the scene's nodes");
   app.add_option("--repeat", typed.repeat, "after a warm-up, time N renders of each frame, in full")->type_name("N");
-  app.add_option("--context", typed.context, "osmesa (default), egl or glfw")->type_name("NAME");
+  app.add_option("--context", typed.context, "osmesa (default; egl where it is not installed), egl or glfw")
+      ->type_name("NAME");
   app.add_option("--out", typed.out, "a picture, .exr or .png; may be given twice; %04d is the frame")
       ->type_name("IMAGE")
       ->expected(1)
@@ -316,7 +317,7 @@ Options fromTyped(const Typed& typed) {
   if (!typed.medium.empty()) options.medium = typed.medium;
   readFrames(typed, options);
   if (!typed.noProgramCache) options.programs = host::programFolder();
-  options.context = parseContext("--context", typed.context);
+  if (!typed.context.empty()) options.context = parseContext("--context", typed.context);
   readOutputs(typed, options);
   options.strict = typed.strict;
   if (!typed.exposure.empty()) {
@@ -348,7 +349,6 @@ Options parseOptions(int argc, const char* const* argv) {
   typed.avsmSize = "256";
   typed.avsmNodes = "8";
   typed.cascades = "1";
-  typed.context = "osmesa";
   CLI::App app("Renders a glTF scene with Tyndall's volumetric shadows.", "tyndall-render");
   app.footer(kFooter);
   app.set_version_flag("--version", "tyndall-render " TYNDALL_VERSION);

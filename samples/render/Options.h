@@ -68,7 +68,7 @@ struct Options {
   tyndall::Changes changes = tyndall::Changes::Unknown; ///< how frames after the first reuse what they can
   std::optional<int> repeat;                            ///< none: render once, without a warm-up
   std::optional<std::filesystem::path> programs;        ///< where linked programs are kept; none: all are compiled
-  host::ContextKind context = host::ContextKind::Osmesa;
+  std::optional<host::ContextKind> context;             ///< none: host::defaultContextKind()
   std::vector<std::filesystem::path> out;
   std::optional<std::filesystem::path> stats;
   bool strict = false;                 ///< whether a note ends it before a picture is written

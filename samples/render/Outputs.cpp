@@ -74,10 +74,11 @@ nlohmann::ordered_json volumeShadowsOf(const std::vector<VolumeShadowStatistics>
   return list;
 }
 
-nlohmann::ordered_json statisticsOf(const FrameStatistics& frame, const Options& options, const std::string& driver) {
+nlohmann::ordered_json statisticsOf(const FrameStatistics& frame, const Options& options,
+                                    const host::Context& context) {
   const Measurement& measurement = frame.measurement;
-  nlohmann::ordered_json json = {{"driver", driver},
-                                 {"context", host::nameOf(options.context)},
+  nlohmann::ordered_json json = {{"driver", context.driver()},
+                                 {"context", host::nameOf(context.kind())},
                                  {"size", {renderedWidth(options), renderedHeight(options)}},
                                  {"technique", options.technique},
                                  {"profile", options.profile},
@@ -153,14 +154,14 @@ bool isWholePicture(const std::filesystem::path& file, const Options& options) {
   }
 }
 
-void writeStatistics(const std::filesystem::path& file, const Options& options, const std::string& driver,
+void writeStatistics(const std::filesystem::path& file, const Options& options, const host::Context& context,
                      const std::vector<FrameStatistics>& frames) {
   nlohmann::ordered_json json;
   if (options.frames)
     for (const FrameStatistics& frame : frames)
-      json["frames"].push_back(statisticsOf(frame, options, driver));
+      json["frames"].push_back(statisticsOf(frame, options, context));
   else
-    json = statisticsOf(frames.front(), options, driver);
+    json = statisticsOf(frames.front(), options, context);
   // A driver's name may hold any bytes: those that are not UTF-8 are replaced instead of thrown over.
   host::writeText(file, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }

@@ -31,7 +31,7 @@ struct FrameStatistics {
 };
 
 /// One object, or with --frames an object a frame in a list under "frames". Throws host::Error.
-void writeStatistics(const std::filesystem::path& file, const Options& options, const std::string& driver,
+void writeStatistics(const std::filesystem::path& file, const Options& options, const host::Context& context,
                      const std::vector<FrameStatistics>& frames);
 
 } // namespace render

@@ -93,9 +93,11 @@ double Measurement::median() const {
 }
 
 FrameRenderer::FrameRenderer(const Options& options)
-    : options_(options), context_(host::Context::create(options.context)), scene_(host::loadScene(options.scene)),
-      notes_(scene_.notes), sceneRenderer_(std::make_unique<host::SceneRenderer>(scene_)),
-      surfaces_(targetOptions(options)), composite_(targetOptions(options)),
+    : options_(options),
+      context_(host::Context::create(options.context ? *options.context : host::defaultContextKind())),
+      scene_(host::loadScene(options.scene)), notes_(scene_.notes),
+      sceneRenderer_(std::make_unique<host::SceneRenderer>(scene_)), surfaces_(targetOptions(options)),
+      composite_(targetOptions(options)),
       inscatter_(host::makeTexture2D(GL_RGBA32F, surfaces_.width(), surfaces_.height())),
       transmittance_(host::makeTexture2D(GL_RGBA32F, surfaces_.width(), surfaces_.height())) {
   tyndall::Config config;

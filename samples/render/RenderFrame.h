@@ -54,8 +54,7 @@ public:
   const host::Scene& scene() const { return scene_; }
   const tyndall::Frame& frame() const { return frame_; }
 
-  const std::string& driver() const { return context_->driver(); }
-  host::Context::Loader loader() const { return context_->loader(); }
+  const host::Context& context() const { return *context_; }
   int lightCount() const { return static_cast<int>(frame_.lights.size()); }
 
   /// What was made up or left out, each line once.

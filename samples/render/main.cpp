@@ -30,7 +30,7 @@ void printSummary(const Options& options, const FrameRenderer& renderer, const s
     host::print(fmt::format("{} frame {}: {}x{}, {} lights, technique {}: effect {:.1f} ms ({})\n",
                             host::printable(options.scene.filename().string()), frame.frame, options.width,
                             options.height, renderer.lightCount(), options.technique, frame.measurement.median(),
-                            renderer.driver()));
+                            renderer.context().driver()));
 }
 
 /// What is given, or by the first of all frames, also where another run draws that one.
@@ -88,7 +88,7 @@ int run(const Options& options) {
   FrameRenderer renderer(options);
   names.requireOthersThan(renderer.scene().files);
   const std::vector<FrameStatistics> statistics = renderFrames(options, frames, renderer);
-  if (options.stats) writeStatistics(*options.stats, options, renderer.driver(), statistics);
+  if (options.stats) writeStatistics(*options.stats, options, renderer.context(), statistics);
   if (options.out.empty() && !options.stats) printSummary(options, renderer, statistics);
   return 0;
 }

@@ -1,7 +1,6 @@
 // What is read off the curves, on numbers that can be checked by hand.
 #include "Analysis.h"
-
-#include <catch2/catch.hpp>
+#include "support/Catch.h"
 
 namespace {
 

@@ -1,9 +1,9 @@
 // Every baseline converges to technique exact as its quality grows: each shows its own error, not another physics.
 #include "baselines/Baseline.h"
 #include "reference/Metrics.h"
+#include "support/Catch.h"
 #include "support/EffectRig.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <gl/ReadBack.h>
 #include <glm/gtc/matrix_transform.hpp>

@@ -66,8 +66,8 @@ public:
     colour_.emplace(host::RenderTargetOptions{setup.width, setup.height});
   }
 
-  const std::string& driver() const { return renderer_.driver(); }
-  tyndall::GlLoader loader() const { return renderer_.loader(); }
+  const std::string& driver() const { return renderer_.context().driver(); }
+  tyndall::GlLoader loader() const { return renderer_.context().loader(); }
 
   /// Blended into the back buffer, as an engine would.
   tyndall::Frame composited() const {

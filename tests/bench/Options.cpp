@@ -156,6 +156,7 @@ Options fromTyped(Typed typed) {
   request.lights =
       typed.lights.empty() ? std::vector<int>{0} : parseInts("--lights", typed.lights, 1, tyndall::kMaxLights);
   request.densities = parseDensities(typed.densities);
+  if (typed.contexts.empty()) typed.contexts = host::nameOf(host::defaultContextKind());
   request.contexts = parseContexts(typed.contexts);
   options.setups = planCurves(request);
   if (typed.scaling)
@@ -175,7 +176,8 @@ void addOptions(CLI::App& app, Typed& typed) {
   app.add_option("--shadow-sizes", typed.shadowSizes, "texels per side (default 4096)")->type_name("LIST");
   app.add_option("--lights", typed.lights, "how many of the scene's lights, 1 to 16 (default: all)")->type_name("LIST");
   app.add_option("--densities", typed.densities, "factors on the medium's density (default 1)")->type_name("LIST");
-  app.add_option("--contexts", typed.contexts, "osmesa (default), egl, glfw")->type_name("LIST");
+  app.add_option("--contexts", typed.contexts, "osmesa (default; egl where it is not installed), egl, glfw")
+      ->type_name("LIST");
   app.add_option("--references", typed.references, "judge against these as well as exact: map, scene")
       ->type_name("LIST");
   app.add_option("--runs", typed.runs, "timed runs of each technique, at least 5 (default 5)")->type_name("N");
@@ -198,7 +200,6 @@ Options parseOptions(int argc, const char* const* argv) {
   typed.sizes = "1280x720";
   typed.shadowSizes = "4096";
   typed.densities = "1";
-  typed.contexts = "osmesa";
   typed.runs = "5";
   CLI::App app("Measures Tyndall's run time against its error, beside what people use today.", "tyndall-bench");
   app.footer("\nTechniques\n" + techniqueHelp() +

@@ -1,9 +1,9 @@
 // tyndall-bench as a user meets it: one clear line for each wrong input, and references that survive a damaged cache.
 #include "ReferenceCache.h"
+#include "support/Catch.h"
 
 #include <algorithm>
 #include <array>
-#include <catch2/catch.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>

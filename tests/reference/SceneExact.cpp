@@ -133,9 +133,7 @@ double SceneExact::firstHit(const Ray& ray, double nearest, double farthest) con
   RTCRayHit hit{};
   hit.ray = embreeRay(ray, nearest, farthest);
   hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(opaque_.embree.get(), &context, &hit);
+  intersect(opaque_.embree.get(), hit);
   if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return kInfinity;
   const TriangleBvh::Corners& corners = opaque_.corners[hit.hit.primID];
   const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -168,10 +166,8 @@ Rgb SceneExact::visibilityAt(const glm::dvec3& point, const tyndall::Light& ligh
     distance = glm::length(toLight);
   }
   const Ray ray{point, glm::normalize(toLight)};
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
   RTCRay shadowRay = embreeRay(ray, 0, distance);
-  rtcOccluded1(opaque_.embree.get(), &context, &shadowRay);
+  occlude(opaque_.embree.get(), shadowRay);
   if (shadowRay.tfar < 0) return Rgb(0);
   Rgb tint{1};
   double nearest = 0;
@@ -179,7 +175,7 @@ Rgb SceneExact::visibilityAt(const glm::dvec3& point, const tyndall::Light& ligh
     RTCRayHit hit{};
     hit.ray = embreeRay(ray, nearest, distance);
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(glass_.embree.get(), &context, &hit);
+    intersect(glass_.embree.get(), hit);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) break;
     tint *= glass_.tints[hit.hit.primID];
     nearest = std::nextafter(hit.ray.tfar, std::numeric_limits<float>::infinity()) * (1 + 1e-6);

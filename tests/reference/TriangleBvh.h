@@ -3,10 +3,11 @@
 // because Embree traverses by rays only. Boxes are floats rounded outward; the triangles stay in double.
 #pragma once
 
+#include "Embree.h"
+
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <embree3/rtcore.h>
 #include <glm/glm.hpp>
 #include <vector>
 

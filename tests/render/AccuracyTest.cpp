@@ -1,8 +1,7 @@
 // Technique exact on the sample scenes, against what the same maps imply and against the geometry itself.
 #include "reference/Metrics.h"
 #include "render/SceneAnswers.h"
-
-#include <catch2/catch.hpp>
+#include "support/Catch.h"
 
 TEST_CASE("exact equals map-exact on every sample scene at 4096 x 4096") {
   for (const std::string& scene : tests::sampleScenes()) {

@@ -1,8 +1,8 @@
 // The sample scenes under light of any unit: scaled by k, the inscatter is k times what it was.
 #include "reference/Metrics.h"
 #include "render/SceneAnswers.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <gl/ReadBack.h>
 #include <render/RenderFrame.h>
 
@@ -35,7 +35,7 @@ TEST_CASE("inscatter of every sample scene scales with its lights, in every tech
   for (const std::string& scene : tests::sampleScenes()) {
     render::FrameRenderer renderer(tests::sampleOptions(scene, kWidth, kHeight, 512));
     renderer.draw(0);
-    const CreateResult created = Effect::create({renderer.loader(), PassTiming::Off});
+    const CreateResult created = Effect::create({renderer.context().loader(), PassTiming::Off});
     REQUIRE(created.effect);
     for (const Technique technique : {Technique::Exact, Technique::Tree, Technique::Epipolar, Technique::LowRank}) {
       Frame frame = renderer.frame();

@@ -56,7 +56,7 @@ SceneAnswers renderScene(const render::Options& options) {
   const render::Picture picture = renderer.readPicture();
   const tyndall::Frame& frame = renderer.frame();
   SceneAnswers answers;
-  answers.driver = renderer.driver();
+  answers.driver = renderer.context().driver();
   answers.exact = {reference::Image(options.width, options.height, withoutAlpha(picture.inscatter)),
                    reference::Image(options.width, options.height, withoutAlpha(picture.transmittance))};
   reference::MapScene& maps = answers.maps;

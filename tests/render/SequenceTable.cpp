@@ -24,7 +24,7 @@ struct Way {
 };
 
 std::unique_ptr<tyndall::Effect> makeEffect(const render::FrameRenderer& renderer) {
-  tyndall::CreateResult created = tyndall::Effect::create({renderer.loader(), tyndall::PassTiming::Off});
+  tyndall::CreateResult created = tyndall::Effect::create({renderer.context().loader(), tyndall::PassTiming::Off});
   if (!created.status) throw host::Error("effect: " + created.status.message);
   return std::move(created.effect);
 }
@@ -71,7 +71,8 @@ int run(render::Options options) {
   for (Way& way : ways)
     way.effect = makeEffect(renderer);
   host::print(fmt::format("# {}, {}x{}, shadow map {}, profile {}, {}\n", options.scene.filename().string(),
-                          options.width, options.height, options.shadowSize, options.profile, renderer.driver()));
+                          options.width, options.height, options.shadowSize, options.profile,
+                          renderer.context().driver()));
   host::print("frame,full_ms,objects_ms,detect_ms,objects_share,detect_share,objects_error,detect_error\n");
   for (int number = options.frames->first; number <= options.frames->last; ++number) {
     renderer.draw(number);

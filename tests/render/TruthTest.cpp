@@ -1,7 +1,8 @@
 // tyndall-render against the independent truth of ../shared/truth, judged by the comparison that comes with it.
+#include "support/Catch.h"
+
 #include <algorithm>
 #include <array>
-#include <catch2/catch.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>

@@ -2,8 +2,8 @@
 // is planned.
 #include "gl/ShaderSources.h"
 #include "plan/Passes.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <regex>
 #include <set>
 #include <string>

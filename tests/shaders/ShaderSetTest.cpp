@@ -4,8 +4,8 @@
 #include "avsm/Programs.h"
 #include "gl/ShaderSources.h"
 #include "plan/Passes.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <regex>
 #include <set>
 

@@ -1,8 +1,8 @@
 #include "support/EffectRig.h"
 
 #include "gl/ReadBack.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 

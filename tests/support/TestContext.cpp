@@ -1,7 +1,9 @@
 #include "support/TestContext.h"
 
 #define CATCH_CONFIG_EXTERNAL_INTERFACES
-#include <catch2/catch.hpp>
+#include "support/Catch.h"
+
+#include <cstdio>
 #include <cstdlib>
 
 namespace tests {
@@ -13,7 +15,15 @@ host::Context* theContext = nullptr; ///< null until a test asks for it
 /// Reports GL errors while the section in which they arose still runs, so that they count as its failures.
 class GlErrorListener : public Catch::TestEventListenerBase {
 public:
-  using TestEventListenerBase::TestEventListenerBase;
+  using Catch::TestEventListenerBase::TestEventListenerBase;
+
+  void testRunStarting(const Catch::TestRunInfo& /*info*/) override {
+    constexpr int kSkipped = 77; // CMake's SKIP_RETURN_CODE of these tests
+    if (testContextKind() == host::ContextKind::Osmesa && !host::isOsmesaInstalled()) {
+      std::puts("skipped: libOSMesa is not installed");
+      std::exit(kSkipped);
+    }
+  }
 
   void sectionEnded(const Catch::SectionStats& stats) override {
     if (!theContext) {
@@ -31,7 +41,7 @@ CATCH_REGISTER_LISTENER(GlErrorListener)
 
 host::ContextKind testContextKind() {
   const char* name = std::getenv("TYNDALL_TEST_CONTEXT");
-  return host::parseContextKind(name ? name : "osmesa");
+  return name ? host::parseContextKind(name) : host::defaultContextKind();
 }
 
 host::Context& testContext() {

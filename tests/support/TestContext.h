@@ -5,7 +5,8 @@
 
 namespace tests {
 
-/// The kind that the environment's TYNDALL_TEST_CONTEXT names; OSMesa if it is not set.
+/// The kind that the environment's TYNDALL_TEST_CONTEXT names; the host's default if it is not set. Where it names
+/// OSMesa and there is none, the run says so and is skipped: exit status 77.
 host::ContextKind testContextKind();
 
 /// The one context of this process, made when first asked for, and current on return.

@@ -3,10 +3,10 @@
 #include "Judge.h"
 #include "Methods.h"
 #include "reference/Curves.h"
+#include "support/Catch.h"
 #include "support/TestContext.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 
 using namespace avsmbench;

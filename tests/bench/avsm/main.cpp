@@ -27,7 +27,7 @@ struct Options {
   std::vector<std::string> methods;
   int size = 256;
   int runs = 5;
-  std::string context = "osmesa";
+  std::string context; ///< empty: the host's default
   std::string csv, curves, images;
   bool passes = false;
 };
@@ -215,7 +215,8 @@ std::vector<MethodEntry> chosen(const Options& options) {
 }
 
 void run(const Options& options) {
-  const std::unique_ptr<host::Context> context = host::Context::create(host::parseContextKind(options.context));
+  const std::unique_ptr<host::Context> context = host::Context::create(
+      options.context.empty() ? host::defaultContextKind() : host::parseContextKind(options.context));
   if (context->glVersion() < 43) throw host::Error("the context is older than OpenGL 4.3");
   const std::vector<MethodEntry> methods = chosen(options);
   for (const std::string& file : {options.csv, options.curves})
@@ -262,7 +263,7 @@ int main(int argc, char** argv) {
   app.add_option("--size", options.size, "texels per side of the map")->check(CLI::Range(8, 1024));
   app.add_option("--runs", options.runs, "timed runs behind a warm-up; 0: errors and memory only")
       ->check(CLI::Range(0, 100));
-  app.add_option("--context", options.context, "osmesa, egl or glfw");
+  app.add_option("--context", options.context, "osmesa (default; egl where it is not installed), egl or glfw");
   app.add_option("--csv", options.csv, "a file for the table");
   app.add_option("--curves", options.curves, "a file for curves of single texels, for plotCurves.py");
   app.add_option("--images", options.images, "a folder for pictures of look-ups, with differences")

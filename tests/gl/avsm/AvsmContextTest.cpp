@@ -2,8 +2,8 @@
 #include "AvsmRig.h"
 #include "gl/effect/FakeContext.h"
 #include "gl/effect/GlState.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <functional>
 #include <utility>
 

@@ -3,9 +3,9 @@
 #include "AvsmRig.h"
 #include "gl/effect/FaultSweep.h"
 #include "gl/effect/GlState.h"
+#include "support/Catch.h"
 #include "support/EffectRig.h"
 
-#include <catch2/catch.hpp>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -1,7 +1,7 @@
 #include "AvsmRig.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 
 namespace tests {

@@ -1,8 +1,7 @@
 // Every variant of the AVSM's shaders builds, and what engines include does in the shaders that it says it is for.
 #include "AvsmRig.h"
+#include "support/Catch.h"
 #include "support/PublicShaders.h"
-
-#include <catch2/catch.hpp>
 
 using namespace tyndall;
 using host::gl;

@@ -1,8 +1,8 @@
 // What avsmCapture records, and what it leaves out.
 #include "AvsmRig.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <random>

@@ -1,8 +1,8 @@
 // Curves of adaptive volumetric shadow maps against the segments they are made of.
 #include "AvsmRig.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <random>
 
 using namespace tyndall;

@@ -1,7 +1,7 @@
 // The way of an engine: world positions to depths by avsmDepth(), and fragments that capture or insert smoke.
 #include "AvsmRig.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 

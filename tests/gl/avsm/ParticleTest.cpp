@@ -1,9 +1,9 @@
 // Avsm::drawParticles(): spheres into curves, in order and in fixed memory, against closed forms and captured lists.
 #include "AvsmRig.h"
 #include "gl/effect/GlState.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>

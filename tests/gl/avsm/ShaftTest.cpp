@@ -1,8 +1,8 @@
 // Shafts through smoke and hair (Light::curves) against the reference, and by every technique.
 #include "../effect/ShaftRig.h"
 #include "AvsmRig.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>

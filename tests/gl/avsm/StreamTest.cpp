@@ -1,8 +1,8 @@
 // avsmInsert: segments inserted by an engine's own shaders, in the order of drawing, against captured lists.
 #include "AvsmRig.h"
 #include "gl/effect/GlState.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <random>
 
 using namespace tyndall;

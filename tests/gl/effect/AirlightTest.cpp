@@ -1,9 +1,9 @@
 // Unshadowed light against closed forms and adaptive quadrature: every light, every phase function, extinction from 0
 // to 100 and distances from 1e-2 to 1e5.
+#include "support/Catch.h"
 #include "support/EffectRig.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 
 using namespace tyndall;

@@ -1,8 +1,7 @@
 // Cascades that fade into one another: each point's weights add up to one, by every technique. (ExactTest has the fade
 // against map-exact.)
 #include "ShaftRig.h"
-
-#include <catch2/catch.hpp>
+#include "support/Catch.h"
 
 using namespace tyndall;
 

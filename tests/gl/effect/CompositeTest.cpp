@@ -1,9 +1,9 @@
 // What becomes of the colour: composited, output, or both; formats; several lights; what is skipped and said so.
 #include "SceneRig.h"
 #include "gl/ReadBack.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
 #include <numeric>

@@ -2,8 +2,8 @@
 // format, the number of samples and the place in the world.
 #include "SceneRig.h"
 #include "reference/Metrics.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 

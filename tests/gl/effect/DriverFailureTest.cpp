@@ -3,8 +3,8 @@
 #include "FakeContext.h"
 #include "SceneRig.h"
 #include "gl/ReadBack.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <utility>
 
 using namespace tyndall;

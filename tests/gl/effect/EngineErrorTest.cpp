@@ -2,8 +2,8 @@
 // ours is left in its place.
 #include "../avsm/AvsmRig.h"
 #include "FaultSweep.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -2,9 +2,9 @@
 // picture that is close to that of exact.
 #include "RefusalRig.h"
 #include "ShaftRig.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 

@@ -2,8 +2,8 @@
 // orthographic camera comes as close to exact as a perspective one.
 #include "ShaftRig.h"
 #include "reference/CameraRays.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 using namespace tyndall;

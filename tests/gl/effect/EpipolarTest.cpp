@@ -1,10 +1,10 @@
 // Techniques tree and epipolar against exact, on maps where they must agree closely.
 #include "gl/ReadBack.h"
 #include "reference/Metrics.h"
+#include "support/Catch.h"
 #include "support/EffectRig.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -1,8 +1,8 @@
 // Technique epipolar against exact with the light in every place that is special to its slices. Compared are the
 // picture, its outermost pixels and those around the epipole.
 #include "ShaftRig.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -1,8 +1,8 @@
 // Technique exact against the map-exact reference, on made-up shadow maps that have every kind of edge.
 #include "reference/Metrics.h"
+#include "support/Catch.h"
 #include "support/EffectRig.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>

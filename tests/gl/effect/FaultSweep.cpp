@@ -1,9 +1,9 @@
 #include "FaultSweep.h"
 
 #include "GlState.h"
+#include "support/Catch.h"
 #include "support/TestContext.h"
 
-#include <catch2/catch.hpp>
 #include <functional>
 #include <sstream>
 

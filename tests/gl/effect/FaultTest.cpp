@@ -1,9 +1,8 @@
 // Unless the status is Ok nothing was drawn: whichever call of a frame fails, alone or with all after it, colour,
 // outputs and GL state are as they were, and the next frame is right.
 #include "FaultSweep.h"
+#include "support/Catch.h"
 #include "support/EffectRig.h"
-
-#include <catch2/catch.hpp>
 
 using namespace tyndall;
 using tests::Fault;

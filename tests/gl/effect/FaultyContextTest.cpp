@@ -1,9 +1,9 @@
 // The watched context itself: what it counts as a wait, its one error flag, and what it lets fail.
 #include "FaultyContext.h"
 #include "gl/Objects.h"
+#include "support/Catch.h"
 #include "support/TestContext.h"
 
-#include <catch2/catch.hpp>
 #include <memory>
 #include <vector>
 

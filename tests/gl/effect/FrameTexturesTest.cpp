@@ -2,8 +2,7 @@
 #include "FakeContext.h"
 #include "RefusalRig.h"
 #include "gl/avsm/AvsmRig.h"
-
-#include <catch2/catch.hpp>
+#include "support/Catch.h"
 
 using namespace tyndall;
 using host::gl;

@@ -1,8 +1,8 @@
 // Every rule about a frame's numbers: a valid frame with one field broken is refused with field, value and rule.
 #include "RefusalRig.h"
 #include "gl/ReadBack.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>

@@ -4,9 +4,9 @@
 #include "HostileRows.h"
 #include "ReuseRig.h"
 #include "gl/ReadBack.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <map>
 
 using namespace tyndall;

@@ -1,9 +1,9 @@
 // Config::programs: what one effect compiles the next one loads, and what a store holds can harm nothing.
 #include "FaultyContext.h"
 #include "FrameCases.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <functional>
 
 using namespace tyndall;

@@ -1,8 +1,8 @@
 // Technique lowrank: spans by differences of prefix sums (Chen 2011, 3.2) against the closed forms of technique tree.
 #include "ShaftRig.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 
 using namespace tyndall;
 

@@ -1,7 +1,7 @@
 // Textures of the effect's own at 2560 x 1600 with a shadow map of 4096 x 4096 (half of what Yusov's needed).
+#include "support/Catch.h"
 #include "support/EffectRig.h"
 
-#include <catch2/catch.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 using namespace tyndall;

@@ -4,8 +4,8 @@
 #include "ReuseRig.h"
 #include "SceneRig.h"
 #include "gl/ReadBack.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <limits>
 #include <utility>
 

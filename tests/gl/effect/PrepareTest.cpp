@@ -3,9 +3,9 @@
 #include "FrameCases.h"
 #include "GlState.h"
 #include "RefusalRig.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <functional>
 #include <limits>
 

@@ -1,9 +1,9 @@
 // Programs in an engine's store: found again, never trusted, and nothing that is wrong with it is seen in the picture.
 #include "FakeContext.h"
 #include "SceneRig.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cstring>
 #include <functional>
 #include <stdexcept>

@@ -1,8 +1,7 @@
 // Queries of the effect's own: from a pool that no steady frame adds to, and read by nobody but statistics().
 #include "FakeContext.h"
 #include "ReuseRig.h"
-
-#include <catch2/catch.hpp>
+#include "support/Catch.h"
 
 using namespace tyndall;
 using tests::address;

@@ -3,9 +3,9 @@
 #include "ShaftRig.h"
 #include "gl/ReadBack.h"
 #include "reference/Metrics.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <string>
 
 using namespace tyndall;

@@ -1,8 +1,7 @@
 #include "RefusalRig.h"
 
 #include "gl/ReadBack.h"
-
-#include <catch2/catch.hpp>
+#include "support/Catch.h"
 
 using namespace tyndall;
 using host::gl;

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "ShaftRig.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 

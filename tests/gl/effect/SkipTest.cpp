@@ -2,9 +2,9 @@
 #include "SceneRig.h"
 #include "ShaftRig.h"
 #include "gl/ReadBack.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <random>
 
 using namespace tyndall;

@@ -2,9 +2,8 @@
 // as the header says: a table here, and all else untouched.
 #include "FrameCases.h"
 #include "GlState.h"
+#include "support/Catch.h"
 #include "support/TestContext.h"
-
-#include <catch2/catch.hpp>
 
 using namespace tyndall;
 using tests::Stage;

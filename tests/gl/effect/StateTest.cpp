@@ -4,9 +4,8 @@
 #include "GlState.h"
 #include "SceneRig.h"
 #include "gl/ReadBack.h"
+#include "support/Catch.h"
 #include "support/EffectRig.h"
-
-#include <catch2/catch.hpp>
 
 using namespace tyndall;
 using host::gl;

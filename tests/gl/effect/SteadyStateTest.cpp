@@ -2,9 +2,9 @@
 // and there are few.
 #include "FaultyContext.h"
 #include "FrameCases.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <set>
 
 using namespace tyndall;

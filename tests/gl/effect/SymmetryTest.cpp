@@ -2,9 +2,9 @@
 // mirrored scenes, a shadow map and its complement.
 #include "SceneRig.h"
 #include "reference/CameraRays.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 
 using namespace tyndall;
 

@@ -1,7 +1,6 @@
 // Technique tree on every kind of shadow map against exact.
 #include "ShaftRig.h"
-
-#include <catch2/catch.hpp>
+#include "support/Catch.h"
 
 using namespace tyndall;
 

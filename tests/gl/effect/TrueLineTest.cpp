@@ -1,7 +1,6 @@
 // Pixels that are marched along their own line between two slices (settings.spreadThreshold) against exact.
 #include "ShaftRig.h"
-
-#include <catch2/catch.hpp>
+#include "support/Catch.h"
 
 #include <cmath>
 #include <limits>

@@ -3,9 +3,9 @@
 #include "ShaftRig.h"
 #include "reference/CameraRays.h"
 #include "reference/Metrics.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,9 +1,9 @@
 // Where a light's shadow views end just where its light does, or where the next one begins: no light leaks between. All
 // texels are dark, so that any light is a leak.
 #include "SceneRig.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>

@@ -2,9 +2,9 @@
 #include "ShaftRig.h"
 
 #include "gl/ReadBack.h"
+#include "support/Catch.h"
 
 #include <array>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
 

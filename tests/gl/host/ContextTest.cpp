@@ -2,9 +2,9 @@
 #include "gl/ReadBack.h"
 #include "gl/RenderTargets.h"
 #include "scene/Error.h"
+#include "support/Catch.h"
 #include "support/TestContext.h"
 
-#include <catch2/catch.hpp>
 #include <cstdlib>
 
 using host::Context;
@@ -13,8 +13,12 @@ using host::gl;
 
 namespace {
 
-/// A hidden window still needs a screen.
+/// A hidden window still needs a screen, and newer Mesas have no OSMesa.
 bool isAvailable(ContextKind kind) {
+  if (kind == ContextKind::Osmesa && !host::isOsmesaInstalled()) {
+    WARN("skipped: an osmesa context needs libOSMesa, which is not installed");
+    return false;
+  }
   if (kind == ContextKind::Glfw && !std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) {
     WARN("skipped: a glfw context needs a display; run under xvfb-run to have one");
     return false;
@@ -93,7 +97,10 @@ TEST_CASE("contexts of different kinds take turns", "[context]") {
       contexts.push_back(Context::create(kind));
     }
   }
-  REQUIRE(contexts.size() >= 2);
+  if (contexts.size() < 2) {
+    WARN("skipped: only one kind of context is installed");
+    return;
+  }
   for (int turn = 0; turn < 2; ++turn) {
     for (const auto& context : contexts) {
       context->makeCurrent();

@@ -2,9 +2,8 @@
 #include "gl/ReadBack.h"
 #include "gl/RenderTargets.h"
 #include "scene/Error.h"
+#include "support/Catch.h"
 #include "support/TestContext.h"
-
-#include <catch2/catch.hpp>
 
 using host::gl;
 using host::GlTexture;

@@ -2,9 +2,8 @@
 #include "gl/SceneRenderer.h"
 #include "gl/host/SmallScenes.h"
 #include "scene/Error.h"
+#include "support/Catch.h"
 #include "support/TestContext.h"
-
-#include <catch2/catch.hpp>
 
 using host::ClipConvention;
 using tests::addWall;

@@ -3,8 +3,8 @@
 #include "gl/SceneRenderer.h"
 #include "gl/avsm/AvsmRig.h"
 #include "gl/host/SmallScenes.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 

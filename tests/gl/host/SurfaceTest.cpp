@@ -1,10 +1,10 @@
 #include "gl/ReadBack.h"
 #include "gl/SceneRenderer.h"
 #include "gl/host/SmallScenes.h"
+#include "support/Catch.h"
 #include "support/TestContext.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 

@@ -1,34 +1,33 @@
-// A program outside the project that uses the README's integration example, word for word, in an OSMesa context.
+// A program outside the project that uses the README's integration example, word for word.
+#ifdef _WIN32
+#include <windows.h> // as engines have it: its macros must not hurt
+#endif
+
 #include <tyndall/tyndall.h>
 
-#include <GL/osmesa.h>
+#include "Context.h"
 
 #include <cmath>
 #include <cstdio>
-#include <dlfcn.h>
 #include <vector>
 
 namespace {
 
-using GetProcAddress = OSMESAproc (*)(const char*);
-GetProcAddress getProcAddress = nullptr;
-void* loader(const char* name) { return reinterpret_cast<void*>(getProcAddress(name)); }
+void* (*loader)(const char* name) = nullptr;
 
-template <typename Function>
-Function load(void* library, const char* name) {
-  return reinterpret_cast<Function>(dlsym(library, name));
-}
+constexpr unsigned kTexture2D = 0x0DE1, kFloat = 0x1406, kDepthComponent = 0x1902, kRgba = 0x1908, kRgba16F = 0x881A,
+                   kDepthComponent32F = 0x8CAC;
 
 // An engine's texture, with the functions of GL 1.1 that the engine has anyway.
-unsigned texture(int internal, int format, int width, int height, const std::vector<float>& values) {
+unsigned texture(unsigned internal, unsigned format, int width, int height, const std::vector<float>& values) {
   const auto gen = reinterpret_cast<void (*)(int, unsigned*)>(loader("glGenTextures"));
   const auto bind = reinterpret_cast<void (*)(unsigned, unsigned)>(loader("glBindTexture"));
   const auto image = reinterpret_cast<void (*)(unsigned, int, int, int, int, int, unsigned, unsigned, const void*)>(
       loader("glTexImage2D"));
   unsigned name = 0;
   gen(1, &name);
-  bind(GL_TEXTURE_2D, name);
-  image(GL_TEXTURE_2D, 0, internal, width, height, 0, static_cast<unsigned>(format), GL_FLOAT, values.data());
+  bind(kTexture2D, name);
+  image(kTexture2D, 0, static_cast<int>(internal), width, height, 0, format, kFloat, values.data());
   return name;
 }
 
@@ -54,35 +53,19 @@ bool renderFrame() {
 } // namespace
 
 int main() {
-  void* library = dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
-  if (!library) return fail("libOSMesa.so.8 is not installed") ? 0 : 1;
-  getProcAddress = load<GetProcAddress>(library, "OSMesaGetProcAddress");
-  const int attributes[] = {OSMESA_FORMAT,
-                            OSMESA_RGBA,
-                            OSMESA_PROFILE,
-                            OSMESA_CORE_PROFILE,
-                            OSMESA_CONTEXT_MAJOR_VERSION,
-                            3,
-                            OSMESA_CONTEXT_MINOR_VERSION,
-                            3,
-                            0};
-  OSMesaContext context =
-      load<OSMesaContext (*)(const int*, OSMesaContext)>(library, "OSMesaCreateContextAttribs")(attributes, nullptr);
-  std::vector<unsigned char> buffer(4UL * width * height);
-  load<GLboolean (*)(OSMesaContext, void*, GLenum, GLsizei, GLsizei)>(library, "OSMesaMakeCurrent")(
-      context, buffer.data(), GL_UNSIGNED_BYTE, width, height);
-
-  hdrColour = texture(0x881A, GL_RGBA, width, height, std::vector<float>(4UL * width * height, 0.25F)); // GL_RGBA16F
-  sceneDepth = texture(0x8CAC, GL_DEPTH_COMPONENT, width, height,
-                       std::vector<float>(1UL * width * height, 0.99F)); // GL_DEPTH_COMPONENT32F
-  shadowMap = texture(0x8CAC, GL_DEPTH_COMPONENT, 4, 4, std::vector<float>(16, 1));
+  loader = openContext();
+  if (!loader) return fail("skipped: no OpenGL context here") ? 0 : 1; // tests/package looks for this line
+  hdrColour = texture(kRgba16F, kRgba, width, height, std::vector<float>(4UL * width * height, 0.25F));
+  sceneDepth =
+      texture(kDepthComponent32F, kDepthComponent, width, height, std::vector<float>(1UL * width * height, 0.99F));
+  shadowMap = texture(kDepthComponent32F, kDepthComponent, 4, 4, std::vector<float>(16, 1));
   if (!renderFrame()) return 1;
 
   const auto bind = reinterpret_cast<void (*)(unsigned, unsigned)>(loader("glBindTexture"));
   const auto read = reinterpret_cast<void (*)(unsigned, int, unsigned, unsigned, void*)>(loader("glGetTexImage"));
   std::vector<float> pixels(4UL * width * height);
-  bind(GL_TEXTURE_2D, hdrColour);
-  read(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, pixels.data());
+  bind(kTexture2D, hdrColour);
+  read(kTexture2D, 0, kRgba, kFloat, pixels.data());
   for (std::size_t i = 0; i < pixels.size(); i += 4)
     if (!std::isfinite(pixels[i]) || pixels[i] == 0.25F || pixels[i + 3] != 0.25F)
       return fail("the picture did not change") ? 0 : 1;

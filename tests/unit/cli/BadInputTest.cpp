@@ -1,6 +1,5 @@
 #include "RunTool.h"
-
-#include <catch2/catch.hpp>
+#include "support/Catch.h"
 
 namespace {
 

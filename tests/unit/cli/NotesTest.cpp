@@ -1,9 +1,9 @@
 // What changes a picture without being an error is a note of tyndall-render.
 #include "RunTool.h"
+#include "support/Catch.h"
 #include "unit/scene/GltfFile.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <scene/ImageFile.h>
 
 namespace {

@@ -1,7 +1,7 @@
 // What tyndall-render does to the files around those that it writes.
 #include "RunTool.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <filesystem>
 
 namespace {

@@ -1,7 +1,7 @@
 // An animation that several runs draw, one after the other or at once: --share, --resume and --missing.
 #include "RunTool.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <filesystem>
 
 namespace {

@@ -1,7 +1,6 @@
 // Standard streams that are closed, full, or pipes that nobody reads: cron jobs, daemons, | head.
 #include "RunTool.h"
-
-#include <catch2/catch.hpp>
+#include "support/Catch.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // The profiles: rows of settings from fast to exact.
 #include "CheckFrame.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <string>
 
 using namespace tyndall;

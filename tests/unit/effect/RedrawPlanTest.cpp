@@ -1,7 +1,7 @@
 // What of a frame is drawn anew, from what is known of the last one (reuse/RedrawPlan.h, Keys.h, RedrawCounts.h).
 #include "reuse/RedrawPlan.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <functional>
 #include <string>
 #include <utility>

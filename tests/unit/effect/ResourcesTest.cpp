@@ -1,7 +1,7 @@
 // The table of textures: its rows by name, and the sizes that follow from a frame's (plan/Resources.h).
 #include "plan/Resources.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cctype>
 #include <fstream>
 #include <random>

@@ -1,8 +1,8 @@
 // A frame's uniform block (optics/Blocks.h): camera rays and the medium.
 #include "OpticsCases.h"
 #include "optics/Blocks.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,8 +1,8 @@
 // A light's uniform block (optics/Blocks.h): its cone, its way through the medium and its shadow views.
 #include "OpticsCases.h"
 #include "optics/Blocks.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <reference/Optics.h>

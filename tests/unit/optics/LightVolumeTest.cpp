@@ -2,8 +2,8 @@
 #include "optics/LightVolume.h"
 
 #include "OpticsCases.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <reference/CameraRays.h>

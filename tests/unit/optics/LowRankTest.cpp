@@ -1,7 +1,7 @@
 // The factors of a matrix by singular values (optics/LowRank.h).
 #include "optics/LowRank.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 

@@ -2,8 +2,8 @@
 #include "optics/Matrices.h"
 
 #include "OpticsCases.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 

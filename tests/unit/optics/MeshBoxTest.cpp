@@ -1,7 +1,7 @@
 // Boxes around meshes (optics/MeshBox.h).
 #include "optics/MeshBox.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 

@@ -5,9 +5,9 @@
 #include "OpticsCases.h"
 #include "SliceScenes.h"
 #include "optics/Blocks.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 

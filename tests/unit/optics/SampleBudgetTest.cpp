@@ -1,8 +1,8 @@
 // How a frame's samples are dealt out among its lights (SampleBudget.h).
 #include "SampleBudget.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 
 using namespace tyndall;

@@ -1,8 +1,8 @@
 // glsl/shared.glsl as a shader compiler lays it out and as a C++ compiler does: both from its text.
 #include "SharedBlocks.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cctype>
 #include <fstream>
 #include <map>

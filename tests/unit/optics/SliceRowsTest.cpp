@@ -2,8 +2,8 @@
 #include "OpticsCases.h"
 #include "SliceScenes.h"
 #include "optics/Blocks.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <optional>
 

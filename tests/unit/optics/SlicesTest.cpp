@@ -3,9 +3,9 @@
 
 #include "OpticsCases.h"
 #include "SliceScenes.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 
 using namespace tests;

@@ -1,6 +1,6 @@
 #include "TestScenes.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <reference/CameraRays.h>
 #include <string>

@@ -1,6 +1,6 @@
 #include "TestScenes.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>

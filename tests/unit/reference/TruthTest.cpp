@@ -1,6 +1,7 @@
 // The references against images that others computed: two independent ways to the same numbers.
+#include "support/Catch.h"
+
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
 #include <reference/SceneExact.h>

@@ -1,8 +1,8 @@
 // A good file, broken in thousands of ways, each the same in every run: it either loads to a scene whose parts fit
 // together, or is refused with host::Error. Anything else fails here or under the sanitizers.
 #include "GltfFile.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 #include <scene/Error.h>

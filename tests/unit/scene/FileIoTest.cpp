@@ -1,8 +1,8 @@
 // Whole files or none: what is left when writing ends early.
 #include "GltfFile.h"
+#include "support/Catch.h"
 
 #include <array>
-#include <catch2/catch.hpp>
 #include <csignal>
 #include <fstream>
 #include <scene/Error.h>

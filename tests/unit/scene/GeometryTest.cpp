@@ -1,7 +1,7 @@
 #include "GltfFile.h"
+#include "support/Catch.h"
 
 #include <array>
-#include <catch2/catch.hpp>
 #include <scene/GltfLoader.h>
 
 namespace tests {

@@ -1,6 +1,6 @@
 #include "GltfFile.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <fstream>
 #include <scene/Error.h>
 #include <scene/GltfLoader.h>

@@ -1,7 +1,7 @@
 #include "GltfFile.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
 #include <iterator>

@@ -1,8 +1,8 @@
 // The Khronos validator's corpus of broken files: what leaves geometry, camera or light undefined is refused, and
 // nothing else is.
 #include "GltfFile.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <fstream>
 #include <map>
 #include <scene/Error.h>

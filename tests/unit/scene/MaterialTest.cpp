@@ -1,6 +1,6 @@
 #include "GltfFile.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <scene/GltfLoader.h>
 #include <scene/ImageFile.h>

@@ -1,6 +1,6 @@
 #include "GltfFile.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>

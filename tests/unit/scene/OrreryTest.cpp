@@ -1,6 +1,7 @@
 // The animated sample scene, as its generator wrote it and the loader reads it.
+#include "support/Catch.h"
+
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <scene/GltfLoader.h>
 
 TEST_CASE("The orrery turns in a loop of 300 frames within its hall", "[scene][gltf][animation]") {

@@ -1,7 +1,7 @@
 // Linked programs in files: whole, bounded, and without where there can be none.
 #include "GltfFile.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <scene/ProgramFiles.h>
 #include <string>

@@ -1,8 +1,8 @@
 // The shared scenes and models: each loads, and has the triangles its README states.
 #include "GltfFile.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <scene/GltfLoader.h>
 
 namespace tests {

@@ -1,8 +1,8 @@
 // Smoke and strands: what a file says of them, and where the particles are.
 #include "GltfFile.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <scene/ShadowViews.h>

@@ -1,8 +1,8 @@
 // Every scene that the project writes, read back: what the loader finds is what the generator described.
 #include "GltfFile.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <scene/GltfLoader.h>
 #include <scenes/Generators.h>

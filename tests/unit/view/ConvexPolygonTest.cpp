@@ -1,6 +1,6 @@
 #include "ViewScenes.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <scene/ConvexPolygon.h>
 

@@ -1,4 +1,5 @@
-#include <catch2/catch.hpp>
+#include "support/Catch.h"
+
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>

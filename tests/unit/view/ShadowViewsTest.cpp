@@ -1,7 +1,7 @@
 #include "ViewScenes.h"
+#include "support/Catch.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <scene/ShadowViews.h>
 #include <scene/View.h>

@@ -1,6 +1,6 @@
 #include "ViewScenes.h"
+#include "support/Catch.h"
 
-#include <catch2/catch.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <scene/Projection.h>
 #include <scene/WorldGeometry.h>
