@@ -28,5 +28,7 @@ build_packages="g++ cmake ninja-build pkg-config libglm-dev libeigen3-dev libtin
   libopenexr-dev libpng-dev libcli11-dev libfmt-dev libglfw3-dev libosmesa6-dev libegl-dev libgl-dev libosmesa6 libegl1
   libegl-mesa0 libgl1-mesa-dri libglx-mesa0"
 # shellcheck disable=SC2034
-test_packages="clang clang-format clang-tidy libclang-rt-14-dev catch2 libembree-dev glslang-tools xvfb xauth python3-numpy
-  python3-matplotlib"
+test_packages="catch2 libembree-dev python3-numpy python3-matplotlib"
+# For tests/run.sh --all: the sanitizers, the lint, the reference compiler of GLSL, windows.
+# shellcheck disable=SC2034
+all_packages="clang clang-format clang-tidy libclang-rt-14-dev glslang-tools xvfb xauth"
