@@ -34,10 +34,10 @@ build_packages="g++ cmake ninja-build pkg-config libglm-dev libeigen3-dev libtin
   libopenexr-dev libpng-dev libcli11-dev libfmt-dev libglfw3-dev libegl-dev libgl-dev libosmesa6? libegl1 libegl-mesa0
   libgl1-mesa-dri libglx-mesa0"
 # shellcheck disable=SC2034
-test_packages="catch2 libembree-dev glslang-tools xvfb xauth python3-numpy python3-matplotlib"
-# For the sanitizers, the lint and Windows. Debian 12 and 13 both have this version of Clang: formats and findings differ
+test_packages="catch2 libembree-dev python3-numpy python3-matplotlib"
+# For tests/run.sh --all: the sanitizers, the lint, the reference compiler of GLSL, windows of X and Windows, Slurm. Debian 12 and 13 both have this version of Clang: formats and findings differ
 # from one to the next.
 clang_version=19
 # shellcheck disable=SC2034
 all_packages="clang-$clang_version clang-format-$clang_version clang-tidy-$clang_version libclang-rt-$clang_version-dev
-  g++-mingw-w64-x86-64 wine wine64"
+  glslang-tools xvfb xauth g++-mingw-w64-x86-64 wine wine64 munge slurmctld slurmd slurm-client ffmpeg"

@@ -235,7 +235,7 @@ TEST_CASE("a reference is kept, and made anew when its file is damaged or of ano
   const fs::path file = fs::directory_iterator(folder.path())->path();
   const auto size = fs::file_size(file);
 
-  CHECK(cache.mapExact(scene).rgb == first.rgb);
+  CHECK(cache.mapExact(scene) == first);
   CHECK(said.empty());
   const auto damage = [&](std::streamoff at) {
     std::fstream stream(file, std::ios::binary | std::ios::in | std::ios::out);
@@ -243,15 +243,15 @@ TEST_CASE("a reference is kept, and made anew when its file is damaged or of ano
     stream.put('\x7f');
   };
   damage(static_cast<std::streamoff>(size) - 1);
-  CHECK(cache.mapExact(scene).rgb == first.rgb);
+  CHECK(cache.mapExact(scene) == first);
   REQUIRE(said.size() == 1);
   CHECK(said.back().find("is corrupt: it is made anew") != std::string::npos);
   damage(8);
-  CHECK(cache.mapExact(scene).rgb == first.rgb);
+  CHECK(cache.mapExact(scene) == first);
   REQUIRE(said.size() == 2);
   CHECK(said.back().find("is of version 127 instead of") != std::string::npos);
   fs::resize_file(file, size / 2);
-  CHECK(cache.mapExact(scene).rgb == first.rgb);
+  CHECK(cache.mapExact(scene) == first);
   CHECK(said.size() == 3);
   scene.medium.absorption = {1, 1, 1};
   CHECK(cache.mapExact(scene).rgb != first.rgb);

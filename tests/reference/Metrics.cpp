@@ -19,7 +19,20 @@ void requireSameSize(const Image& image, const Image& reference) {
     throw std::invalid_argument("reference: the images to compare differ in size");
 }
 
+ComparisonWatch theWatch = nullptr;
+
 } // namespace
+
+void setComparisonWatch(ComparisonWatch watch) { theWatch = watch; }
+
+void tellOfComparison(const Image& image, const Image& reference) {
+  if (theWatch) theWatch(image, reference);
+}
+
+bool operator==(const Image& image, const Image& reference) {
+  tellOfComparison(image, reference);
+  return image.width == reference.width && image.height == reference.height && image.rgb == reference.rgb;
+}
 
 std::string ErrorMetrics::text() const {
   std::ostringstream out;
@@ -28,6 +41,7 @@ std::string ErrorMetrics::text() const {
 }
 
 ErrorMetrics compare(const Image& image, const Image& reference) {
+  tellOfComparison(image, reference);
   requireSameSize(image, reference);
   ErrorMetrics result;
   result.mean = meanOf(reference);

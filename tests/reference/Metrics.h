@@ -25,4 +25,10 @@ ErrorMetrics compare(const Image& image, const Image& reference);
 /// |image - reference| / mean(reference).
 Image differenceImage(const Image& image, const Image& reference);
 
+/// Whom compare(), == and other comparisons of images tell of each pair, so that a failing test can show it; null:
+/// none.
+using ComparisonWatch = void (*)(const Image& image, const Image& reference);
+void setComparisonWatch(ComparisonWatch watch);
+void tellOfComparison(const Image& image, const Image& reference);
+
 } // namespace reference

@@ -44,6 +44,9 @@ struct Image {
   }
 };
 
+/// Whether all values are equal; a comparison that Metrics.h tells of.
+bool operator==(const Image& image, const Image& reference);
+
 /// What a reference says about a pixel, or about all of them.
 struct PixelAnswer {
   Rgb inscatter{0};

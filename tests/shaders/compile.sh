@@ -3,7 +3,7 @@
 # read all of them, as they are and with their #version raised: words that a later GLSL reserves are refused there.
 set -eu
 glslang=$1 tool=$2 dir=$3
-[ -x "$glslang" ] || { echo "glslangValidator is missing: run tests/run.sh" >&2; exit 1; }
+[ -x "$glslang" ] || { echo "glslangValidator is missing: run tests/run.sh --all" >&2; exit 1; }
 rm -rf "$dir"
 "$tool" "$dir/own"
 

@@ -5,6 +5,18 @@
 #if __has_include(<catch2/catch.hpp>)
 
 #include <catch2/catch.hpp>
+#include <string>
+
+#ifdef CATCH_CONFIG_EXTERNAL_INTERFACES
+namespace Catch {
+
+/// What a listener's assertionEnded returns.
+using AssertionEnded = bool;
+
+inline const std::string& nameOf(const TestCaseStats& stats) { return stats.testInfo.name; }
+
+} // namespace Catch
+#endif
 
 #else
 
@@ -31,6 +43,9 @@ inline Matchers::StringContainsMatcher Contains(const std::string& text) { retur
 
 #ifdef CATCH_CONFIG_EXTERNAL_INTERFACES
 using TestEventListenerBase = EventListenerBase;
+using AssertionEnded = void;
+
+inline const std::string& nameOf(const TestCaseStats& stats) { return stats.testInfo->name; }
 #endif
 
 } // namespace Catch

@@ -31,12 +31,18 @@ void checkAll(Fault kind) {
 
 } // namespace
 
-TEST_CASE("faults: a shader that does not compile, whichever, draws nothing") { checkAll(Fault::Compile); }
-TEST_CASE("faults: a program that does not link, whichever, draws nothing") { checkAll(Fault::Link); }
-TEST_CASE("faults: a texture without memory, whichever, draws nothing") { checkAll(Fault::Texture); }
-TEST_CASE("faults: a renderbuffer without memory, whichever, draws nothing") { checkAll(Fault::Renderbuffer); }
-TEST_CASE("faults: a buffer without memory, whichever, draws nothing") { checkAll(Fault::Buffer); }
-TEST_CASE("faults: a framebuffer that is refused, whichever, draws nothing") { checkAll(Fault::Framebuffer); }
+TEST_CASE("faults: a shader that does not compile, whichever, draws nothing", "[once][slow]") {
+  checkAll(Fault::Compile);
+}
+TEST_CASE("faults: a program that does not link, whichever, draws nothing", "[once][slow]") { checkAll(Fault::Link); }
+TEST_CASE("faults: a texture without memory, whichever, draws nothing", "[once][slow]") { checkAll(Fault::Texture); }
+TEST_CASE("faults: a renderbuffer without memory, whichever, draws nothing", "[once][slow]") {
+  checkAll(Fault::Renderbuffer);
+}
+TEST_CASE("faults: a buffer without memory, whichever, draws nothing", "[once][slow]") { checkAll(Fault::Buffer); }
+TEST_CASE("faults: a framebuffer that is refused, whichever, draws nothing", "[once][slow]") {
+  checkAll(Fault::Framebuffer);
+}
 
 TEST_CASE("a context that is watched for calls and faults draws what the context itself does") {
   FaultyContext context;

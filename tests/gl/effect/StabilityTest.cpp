@@ -41,6 +41,7 @@ double median(std::vector<double> values) {
 // Largest error relative to the value or to the image's median, where the reference is finite. What float32 holds in
 // few bits or not at all counts as 0.
 double errorWhereFinite(const reference::Image& image, const reference::Image& truth) {
+  reference::tellOfComparison(image, truth);
   const double scale = std::max(median(truth.rgb), 1e-32);
   double worst = 0;
   for (std::size_t i = 0; i < truth.rgb.size(); ++i) {

@@ -87,7 +87,7 @@ TEST_CASE("GL state on return equals GL state on entry, every row of it poisoned
       }
   // The poison did not get into the picture either.
   const reference::ImageAnswer again = full.rig.render();
-  CHECK(again.inscatter.rgb == expected.inscatter.rgb);
+  CHECK(again.inscatter == expected.inscatter);
 }
 
 TEST_CASE("frames that reuse the last one leave a poisoned GL state alone") {

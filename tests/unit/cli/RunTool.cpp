@@ -35,7 +35,7 @@ std::filesystem::path binFolder() { return std::filesystem::read_symlink("/proc/
 
 /// In the child process: becomes the command, or ends.
 [[noreturn]] void become(const std::filesystem::path& folder, std::vector<std::string> command, int out, int err) {
-  command.insert(command.begin(), {"timeout", "60"});
+  command.insert(command.begin(), {"timeout", "600"});
   std::vector<char*> pointers;
   for (std::string& part : command)
     pointers.push_back(part.data());

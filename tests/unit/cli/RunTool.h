@@ -8,7 +8,7 @@
 namespace tests {
 
 struct ToolResult {
-  int exitCode = -1; ///< 124: ran past a minute; -1: a signal ended it
+  int exitCode = -1; ///< 124: ran past ten minutes; -1: a signal ended it
   std::string out;
   std::string err;
 

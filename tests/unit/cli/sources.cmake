@@ -2,6 +2,7 @@
 set(TYNDALL_UNIT_CLI_SOURCES
   ${CMAKE_CURRENT_LIST_DIR}/BadInputTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ContextsTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/FailureReportTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/NotesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/OutputsTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/RenderTest.cpp
