@@ -13,18 +13,6 @@ namespace render {
 
 namespace {
 
-/// The composite as RGB, row 0 on top.
-std::vector<float> topDownRgb(const std::vector<float>& bottomUpRgba, int width, int height) {
-  std::vector<float> rgb;
-  rgb.reserve(bottomUpRgba.size() / 4 * 3);
-  for (int row = height - 1; row >= 0; --row)
-    for (int column = 0; column < width; ++column) {
-      const float* pixel = bottomUpRgba.data() + 4 * (static_cast<std::size_t>(row) * width + column);
-      rgb.insert(rgb.end(), pixel, pixel + 3);
-    }
-  return rgb;
-}
-
 host::Image imageOf(const Picture& picture, int width, int height) {
   host::Image image;
   image.width = width;
@@ -86,6 +74,17 @@ nlohmann::ordered_json statisticsOf(const FrameStatistics& frame, const Options&
 
 } // namespace
 
+std::vector<float> topDownRgb(const std::vector<float>& bottomUpRgba, int width, int height) {
+  std::vector<float> rgb;
+  rgb.reserve(bottomUpRgba.size() / 4 * 3);
+  for (int row = height - 1; row >= 0; --row)
+    for (int column = 0; column < width; ++column) {
+      const float* pixel = bottomUpRgba.data() + 4 * (static_cast<std::size_t>(row) * width + column);
+      rgb.insert(rgb.end(), pixel, pixel + 3);
+    }
+  return rgb;
+}
+
 std::filesystem::path nameOfFrame(const std::filesystem::path& pattern, int frame) {
   std::string name = pattern.string();
   const std::string place = "%04d";
@@ -113,18 +112,21 @@ float exposureOf(const Picture& picture) {
   return static_cast<float>(std::clamp(std::min(kMiddleGrey / mean, kHighlight / *bright), 1e-30, 1e30));
 }
 
+std::vector<std::uint8_t> displayed(const std::vector<float>& rgb, const Options& options, float exposure) {
+  // Radiance takes the film curve; the colours of the other views mean numbers.
+  const bool isRadiance =
+      options.view == tyndall::DebugView::Composite || options.view == tyndall::DebugView::Inscatter;
+  return isRadiance ? host::toneMap(rgb.data(), options.width, options.height, exposure, options.supersample)
+                    : host::encodeColours(rgb.data(), options.width, options.height, options.supersample);
+}
+
 void writePicture(const std::filesystem::path& file, const Picture& picture, const Options& options, float exposure) {
   if (std::tolower(static_cast<unsigned char>(file.extension().string().at(1))) == 'e') {
     host::writeExr(file, imageOf(picture, renderedWidth(options), renderedHeight(options)));
     return;
   }
-  // Radiance takes the film curve; the colours of the other views mean numbers.
-  const bool isRadiance =
-      options.view == tyndall::DebugView::Composite || options.view == tyndall::DebugView::Inscatter;
   const std::vector<float> rgb = topDownRgb(picture.composite, renderedWidth(options), renderedHeight(options));
-  host::writePng(file, options.width, options.height,
-                 isRadiance ? host::toneMap(rgb.data(), options.width, options.height, exposure, options.supersample)
-                            : host::encodeColours(rgb.data(), options.width, options.height, options.supersample));
+  host::writePng(file, options.width, options.height, displayed(rgb, options, exposure));
 }
 
 void writeStatistics(const std::filesystem::path& file, const Options& options, const std::string& driver,

@@ -4,10 +4,14 @@
 #include "Options.h"
 #include "RenderFrame.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
 namespace render {
+
+/// The composite as RGB, row 0 on top.
+std::vector<float> topDownRgb(const std::vector<float>& bottomUpRgba, int width, int height);
 
 /// The name of a frame's picture: %04d becomes the number.
 std::filesystem::path nameOfFrame(const std::filesystem::path& pattern, int frame);
@@ -15,6 +19,10 @@ std::filesystem::path nameOfFrame(const std::filesystem::path& pattern, int fram
 /// What brings the picture's geometric mean radiance, black left out, to middle grey, or less if the brightest fiftieth
 /// would lose its contrast.
 float exposureOf(const Picture& picture);
+
+/// 8-bit sRGB of the picture's size, row 0 on top, of the linear colours of all rendered pixels, three floats each, row
+/// 0 on top: as the view asks for, radiance by the film curve.
+std::vector<std::uint8_t> displayed(const std::vector<float>& rgb, const Options& options, float exposure);
 
 /// Writes an EXR or a PNG, by the extension. Throws host::Error.
 void writePicture(const std::filesystem::path& file, const Picture& picture, const Options& options, float exposure);
