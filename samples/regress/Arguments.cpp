@@ -91,6 +91,8 @@ Arguments parseCommand(int argc, const char* const* argv) {
   record->add_flag("--force", force, "replaces the references that there are");
   check->add_flag("--force", force, "replaces the results and the report of an earlier run");
   check->add_flag("--resume", resume, "goes on with an earlier run: what is done and not out of date is kept");
+  if (argc > 1 && argv[1][0] != '-' && !app.get_subcommand_no_throw(argv[1]))
+    render::failUsage("command", argv[1], "must be record, check or report");
   render::parseArguments(app, argc, argv);
   for (const CLI::App* command : app.get_subcommands())
     refuseEmpty(*command);

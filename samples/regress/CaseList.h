@@ -12,10 +12,10 @@ namespace regress {
 /// What a picture may differ by from its reference. Differences are relative to the mean of the reference.
 struct Tolerance {
   double rRmse = 0.005;       ///< root of the mean squared difference of all channels
-  double p99 = 0.02;          ///< 99th percentile of the pixels' differences
+  double p99 = 0.005;         ///< 99th percentile of the pixels' differences
   double max = 1;             ///< the largest one
   double pixel = 0.02;        ///< from which on a pixel counts as another one
-  double over = 0.01;         ///< share of such pixels
+  double over = 0.002;        ///< share of such pixels
   std::optional<double> flip; ///< mean FLIP of the displayed pictures; none: not judged
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <glm/glm.hpp>
 #include <render/Outputs.h>
 #include <scene/ImageFile.h>
@@ -80,13 +81,21 @@ Difference compare(const HdrPicture& wanted, const HdrPicture& got, double pixel
 }
 
 std::vector<Judgement> judge(const Difference& difference, const Tolerance& tolerance) {
-  std::vector<Judgement> judgements = {{"rRMSE", difference.rRmse, tolerance.rRmse},
-                                       {"p99", difference.p99, tolerance.p99},
-                                       {"max", difference.max, tolerance.max},
-                                       {"over", difference.over, tolerance.over}};
-  if (tolerance.flip) judgements.push_back({"FLIP", difference.flip, *tolerance.flip});
-  if (difference.notFinite > 0) judgements.push_back({"not finite", static_cast<double>(difference.notFinite), 0});
+  std::vector<Judgement> judgements = {
+      {"rRMSE", difference.rRmse, tolerance.rRmse, true},
+      {"p99", difference.p99, tolerance.p99, true},
+      {"max", difference.max, tolerance.max, true},
+      {"pixels over " + textOf(tolerance.pixel, true), difference.over, tolerance.over, true}};
+  if (tolerance.flip) judgements.push_back({"FLIP", difference.flip, *tolerance.flip, false});
+  if (difference.notFinite > 0)
+    judgements.push_back({"pixels not finite in only one", static_cast<double>(difference.notFinite), 0, false});
   return judgements;
+}
+
+std::string textOf(double value, bool isRelative) {
+  const double shown = isRelative ? 100 * value : value;
+  if (!std::isfinite(shown)) return "infinite";
+  return fmt::format(shown >= 1000 ? "{:.0f}{}" : "{:.3g}{}", shown, isRelative ? " %" : "");
 }
 
 std::vector<std::uint8_t> differenceColours(const HdrPicture& wanted, const HdrPicture& got, double range) {

@@ -26,11 +26,14 @@ Difference compare(const HdrPicture& wanted, const HdrPicture& got, double pixel
 
 /// One of the figures against its limit.
 struct Judgement {
-  std::string name;
+  std::string name; ///< for people
   double value;
   double limit;
+  bool isRelative; ///< to be read in per cent
   bool isKept() const { return value <= limit; }
 };
+/// "1.25 %", "0.004" or "3"; "infinite".
+std::string textOf(double value, bool isRelative);
 std::vector<Judgement> judge(const Difference& difference, const Tolerance& tolerance);
 
 /// By how much brighter (red) or darker (blue) each pixel is than the reference, grey where it is the same: 8-bit sRGB.

@@ -27,13 +27,7 @@ Pictures picturesOf(const Result& result, const Results& files) {
   return {uriOf("got"), uriOf("wanted"), uriOf("difference")};
 }
 
-std::string number(double value) {
-  return std::isfinite(value) ? value == 0 ? "0" : fmt::format("{:.3g}", value) : "&infin;";
-}
-
-std::string percent(double value) {
-  return std::isfinite(value) ? fmt::format("{:.3g}&thinsp;%", 100 * value) : "&infin;";
-}
+std::string percent(double value) { return textOf(value, true); }
 
 std::string figureOf(const std::string& uri, const std::string& title, const std::string& alternative) {
   if (uri.empty()) return "";
@@ -72,45 +66,54 @@ std::string measuresOf(const Result& result) {
   if (!result.difference) return "";
   std::string rows;
   for (const Judgement& one : judge(*result.difference, result.tolerance)) {
-    const bool isCount = one.name == "not finite", isPlain = isCount || one.name == "FLIP";
-    const double used = one.limit > 0 ? one.value / one.limit : one.value > 0 ? 2 : 0;
-    rows += fmt::format(
-        R"(<tr class="{}"><th scope="row">{}</th><td>{}</td><td>{}</td><td><meter class="{}" min="0" max="1" value="{:.3f}"></meter></td></tr>
-)",
-        one.isKept() ? "kept" : "broken",
-        one.name == "over" ? "pixels over " + percent(result.tolerance.pixel)
-        : isCount          ? "pixels with a NaN or infinity in one only"
-                           : one.name,
-        isPlain ? number(one.value) : percent(one.value), isPlain ? number(one.limit) : percent(one.limit),
-        one.isKept() ? "kept" : "broken", std::min(used, 1.0));
+    const double used = one.limit > 0 ? one.value / one.limit : one.value > 0 ? 1 : 0;
+    const char* const kind = one.isKept() ? "kept" : "broken";
+    rows += fmt::format("<tr class=\"{0}\"><th scope=\"row\">{1}</th><td>{2}</td><td>{3}</td><td><meter class=\"{0}\" "
+                        "min=\"0\" max=\"1\" value=\"{4:.3f}\"></meter></td></tr>\n",
+                        kind, one.name, textOf(one.value, one.isRelative), textOf(one.limit, one.isRelative),
+                        std::min(used, 1.0));
   }
-  return "<table class=\"measures\"><thead><tr><th>figure</th><th>is</th><th>may be</th><th>share</th></tr></thead>"
+  return "<table class=\"measures\"><thead><tr><th>difference</th><th>is</th><th>may be</th><th></th></tr></thead>"
          "<tbody>" +
          rows + "</tbody></table>";
 }
 
 std::string originText(const Origin& origin) {
-  return fmt::format("{}{}{}", escaped(origin.driver.empty() ? "driver not known" : origin.driver),
+  return fmt::format("{}{}{}", escaped(origin.driver),
                      origin.context.empty() ? "" : " (" + escaped(origin.context) + ")",
                      origin.commit.empty() ? "" : ", commit " + escaped(origin.commit));
 }
 
-std::string cardOf(const Result& result, const Results& files) {
-  std::string command, notes;
+std::string factsOf(const Result& result) {
+  std::string words;
   for (const std::string& word : result.words)
-    command += " " + word;
+    words += (words.empty() ? "" : " ") + word;
+  std::string facts = "<dl><dt>options</dt><dd><code>" + (words.empty() ? "none" : escaped(words)) + "</code></dd>";
+  if (!result.origin.driver.empty()) facts += "<dt>got from</dt><dd>" + originText(result.origin) + "</dd>";
+  if (!result.recorded.driver.empty()) facts += "<dt>wanted from</dt><dd>" + originText(result.recorded) + "</dd>";
+  return facts + "</dl>";
+}
+
+/// What a line says after the verdict, which stands in a badge.
+std::string reasonOf(const Result& result) {
+  const std::string summary = summaryOf(result);
+  const std::size_t colon = summary.find(": ");
+  return result.verdict == Verdict::Failed ? ""
+         : colon == std::string::npos      ? escaped(summary)
+                                           : escaped(summary.substr(colon + 2));
+}
+
+std::string cardOf(const Result& result, const Results& files) {
+  std::string notes = result.message.empty() ? "" : "<p class=\"cause\">" + escaped(result.message) + "</p>\n";
   for (const std::string& note : result.notes)
     notes += "<p class=\"note\">" + escaped(note) + "</p>\n";
-  if (!result.message.empty()) notes = "<p class=\"cause\">" + escaped(result.message) + "</p>\n" + notes;
   return fmt::format(R"(<details class="case {1}" id="{0}"{2}>
 <summary><span class="badge {1}">{1}</span><h2>{0}</h2><span class="why">{3}</span></summary>
-<div class="body">{4}{5}<div class="facts">{6}<dl><dt>options</dt><dd><code>{7}</code></dd><dt>got from</dt><dd>{8}</dd><dt>wanted from</dt><dd>{9}</dd></dl></div>
+<div class="body">{4}{5}<div class="facts">{6}{7}</div>
 </div></details>
 )",
                      escaped(result.name), nameOf(result.verdict), result.verdict == Verdict::Same ? "" : " open",
-                     result.verdict == Verdict::Failed ? "" : escaped(summaryOf(result)), notes,
-                     figuresOf(result, files), measuresOf(result), escaped(command.empty() ? "none" : command),
-                     originText(result.origin), originText(result.recorded));
+                     reasonOf(result), notes, figuresOf(result, files), measuresOf(result), factsOf(result));
 }
 
 std::string rowOf(const Result& result) {
@@ -118,7 +121,7 @@ std::string rowOf(const Result& result) {
     if (!result.difference) return "<td colspan=\"5\">" + escaped(result.message) + "</td>";
     const Difference& d = *result.difference;
     return fmt::format("<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>", percent(d.rRmse), percent(d.p99),
-                       percent(d.max), percent(d.over), number(d.flip));
+                       percent(d.max), percent(d.over), textOf(d.flip, false));
   };
   return fmt::format(
       R"(<tr><td><span class="badge {1}">{1}</span></td><th scope="row"><a href="#{0}">{0}</a></th>{2}<td>{3:.1f}&thinsp;s</td></tr>

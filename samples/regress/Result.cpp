@@ -91,11 +91,12 @@ double Result::badness() const {
 std::string summaryOf(const Result& result) {
   if (result.verdict == Verdict::Failed) return "failed: " + result.message;
   if (result.isEqual) return "same, to the last bit";
-  std::string text = nameOf(result.verdict);
+  std::string text;
   for (const Judgement& one : judge(*result.difference, result.tolerance))
     if (one.isKept() == (result.verdict == Verdict::Same))
-      text += fmt::format(", {} {:.3g} {} {:.3g}", one.name, one.value, one.isKept() ? "of" : "over", one.limit);
-  return text;
+      text += fmt::format("{}{} {} (at most {})", text.empty() ? ": " : ", ", one.name,
+                          textOf(one.value, one.isRelative), textOf(one.limit, one.isRelative));
+  return nameOf(result.verdict) + text;
 }
 
 void Results::prepare() const {
@@ -148,6 +149,12 @@ void Results::remove(const std::string& name) const {
   std::filesystem::remove(file(name), ignored);
   for (const char* kind : {"got", "wanted", "difference"})
     std::filesystem::remove(pictureFile(name, kind), ignored);
+}
+
+void Results::removeReport() const {
+  std::error_code ignored;
+  for (const std::filesystem::path& file : {reportFile(), junitFile()})
+    std::filesystem::remove(file, ignored);
 }
 
 } // namespace regress

@@ -53,6 +53,7 @@ public:
   bool exists(const std::string& name) const;
   void write(const Result& result) const;
   void remove(const std::string& name) const;
+  void removeReport() const; ///< which tells of other results
 
   std::filesystem::path pictureFile(const std::string& name, const std::string& kind) const {
     return out_ / "pictures" / (name + "." + kind + ".png");

@@ -259,6 +259,7 @@ int check(const Arguments& arguments) {
   if (arguments.force)
     for (const Case& one : cases)
       results.remove(one.name);
+  results.removeReport();
   const std::vector<Case> left = unchecked(cases, machine, run, results);
   if (left.size() < cases.size())
     host::say(fmt::format("{} of {} cases are done already", cases.size() - left.size(), cases.size()));
