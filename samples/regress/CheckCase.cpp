@@ -48,7 +48,7 @@ void noteDifferentOptions(const Case& one, const Reference& reference, Result& r
 /// Where the difference's colours are full: far beyond the tolerance, and where few pixels are.
 double rangeOf(const Difference& difference, const Tolerance& tolerance) {
   constexpr double kBeyond = 5, kLeast = 1e-3;
-  return std::max(kLeast, std::min(difference.max, std::max(difference.p99, kBeyond * tolerance.pixel)));
+  return std::max(kLeast, std::min(difference.max, std::max(difference.p99 / 2, kBeyond * tolerance.pixel)));
 }
 
 void judgePicture(const Case& one, const Rendering& rendering, const Reference& reference, float exposure,

@@ -94,7 +94,7 @@ std::string summaryOf(const Result& result) {
   std::string text;
   for (const Judgement& one : judge(*result.difference, result.tolerance))
     if (one.isKept() == (result.verdict == Verdict::Same))
-      text += fmt::format("{}{} {} (at most {})", text.empty() ? ": " : ", ", one.name,
+      text += fmt::format("{}{} = {} (at most {})", text.empty() ? ": " : ", ", one.name,
                           textOf(one.value, one.isRelative), textOf(one.limit, one.isRelative));
   return nameOf(result.verdict) + text;
 }
