@@ -55,6 +55,13 @@ void refuseEmpty(const CLI::App& command) {
       if (value.empty()) render::failUsage(option->get_name(), "\"\"", "must not be empty");
 }
 
+/// Said here: CLI11 would only miss a command.
+void requireCommand(int argc, const char* const* argv) {
+  const std::string word = argc > 1 ? argv[1] : "-";
+  if (word[0] == '-' || word == "record" || word == "check" || word == "report") return;
+  render::failUsage("command", word, "must be record, check or report");
+}
+
 Arguments fromTyped(const Typed& typed) {
   Arguments arguments;
   arguments.list = typed.list;
@@ -91,8 +98,7 @@ Arguments parseCommand(int argc, const char* const* argv) {
   record->add_flag("--force", force, "replaces the references that there are");
   check->add_flag("--force", force, "replaces the results and the report of an earlier run");
   check->add_flag("--resume", resume, "goes on with an earlier run: what is done and not out of date is kept");
-  if (argc > 1 && argv[1][0] != '-' && !app.get_subcommand_no_throw(argv[1]))
-    render::failUsage("command", argv[1], "must be record, check or report");
+  requireCommand(argc, argv);
   render::parseArguments(app, argc, argv);
   for (const CLI::App* command : app.get_subcommands())
     refuseEmpty(*command);
