@@ -9,6 +9,8 @@
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <half.h>
+#include <list>
 #include <png.h>
 #include <scene/Error.h>
 #include <scene/FileIo.h>
@@ -51,9 +53,11 @@ void checkChannels(const std::filesystem::path& file, const Image& image) {
   }
 }
 
-/// A slice of a frame buffer over a channel's values, whose window begins at `origin`.
-Imf::Slice sliceOf(const float* values, const Imath::V2i& origin, int width, int height) {
-  return Imf::Slice::Make(Imf::FLOAT, values, origin, width, height, sizeof(float), sizeof(float) * width);
+/// A slice of a frame buffer over a channel's values, float or half, whose window begins at `origin`.
+template <typename Value>
+Imf::Slice sliceOf(const Value* values, const Imath::V2i& origin, int width, int height) {
+  constexpr Imf::PixelType kType = sizeof(Value) == sizeof(float) ? Imf::FLOAT : Imf::HALF;
+  return Imf::Slice::Make(kType, values, origin, width, height, sizeof(Value), sizeof(Value) * width);
 }
 
 /// The ACES film curve as fitted by K. Narkowicz (2016), 0 at 0 and cut off at 1.
@@ -131,15 +135,21 @@ void Image::addChannel(const std::string& name, const float* pixels, int stride,
   channels.push_back(std::move(channel));
 }
 
-void writeExr(const std::filesystem::path& file, const Image& image) {
+float roundedToHalf(float value) { return half(value); }
+
+void writeExr(const std::filesystem::path& file, const Image& image, Precision precision) {
   checkSize(file, image.width, image.height);
   checkChannels(file, image);
+  const bool isHalf = precision == Precision::Half;
   Imf::Header header(image.width, image.height);
-  header.compression() = Imf::ZIP_COMPRESSION;
+  header.compression() = isHalf ? Imf::PIZ_COMPRESSION : Imf::ZIP_COMPRESSION;
   Imf::FrameBuffer frameBuffer;
+  std::list<std::vector<half>> halves;
   for (const Channel& channel : image.channels) {
-    header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
-    frameBuffer.insert(channel.name, sliceOf(channel.values.data(), {0, 0}, image.width, image.height));
+    header.channels().insert(channel.name, Imf::Channel(isHalf ? Imf::HALF : Imf::FLOAT));
+    if (isHalf) halves.emplace_back(channel.values.begin(), channel.values.end());
+    frameBuffer.insert(channel.name, isHalf ? sliceOf(halves.back().data(), {0, 0}, image.width, image.height)
+                                            : sliceOf(channel.values.data(), {0, 0}, image.width, image.height));
   }
   writeAndRename(file, [&](const std::filesystem::path& temporary) {
     Imf::OutputFile output(temporary.c_str(), header);

@@ -26,8 +26,14 @@ struct Image {
   void addChannel(const std::string& name, const float* pixels, int stride, int offset, bool bottomUp);
 };
 
-/// 32-bit float, ZIP-compressed scanlines. Throws Error if the image is malformed or cannot be written.
-void writeExr(const std::filesystem::path& file, const Image& image);
+enum class Precision { Float, Half };
+
+/// 32-bit float, ZIP-compressed scanlines, or half floats, PIZ-compressed. Throws Error if the image is malformed or
+/// cannot be written.
+void writeExr(const std::filesystem::path& file, const Image& image, Precision precision = Precision::Float);
+
+/// The value as an EXR of half floats holds it; what is too large becomes infinite.
+float roundedToHalf(float value);
 
 /// All channels as 32-bit float, in the file's (alphabetical) order. Throws Error.
 Image readExr(const std::filesystem::path& file);

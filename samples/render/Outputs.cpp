@@ -14,18 +14,6 @@ namespace render {
 
 namespace {
 
-/// The composite as RGB, row 0 on top.
-std::vector<float> topDownRgb(const std::vector<float>& bottomUpRgba, int width, int height) {
-  std::vector<float> rgb;
-  rgb.reserve(bottomUpRgba.size() / 4 * 3);
-  for (int row = height - 1; row >= 0; --row)
-    for (int column = 0; column < width; ++column) {
-      const float* pixel = bottomUpRgba.data() + 4 * (static_cast<std::size_t>(row) * width + column);
-      rgb.insert(rgb.end(), pixel, pixel + 3);
-    }
-  return rgb;
-}
-
 bool isPng(const std::filesystem::path& file) {
   return std::tolower(static_cast<unsigned char>(file.extension().string().at(1))) == 'p';
 }
@@ -97,6 +85,17 @@ nlohmann::ordered_json statisticsOf(const FrameStatistics& frame, const Options&
 
 } // namespace
 
+std::vector<float> topDownRgb(const std::vector<float>& bottomUpRgba, int width, int height) {
+  std::vector<float> rgb;
+  rgb.reserve(bottomUpRgba.size() / 4 * 3);
+  for (int row = height - 1; row >= 0; --row)
+    for (int column = 0; column < width; ++column) {
+      const float* pixel = bottomUpRgba.data() + 4 * (static_cast<std::size_t>(row) * width + column);
+      rgb.insert(rgb.end(), pixel, pixel + 3);
+    }
+  return rgb;
+}
+
 std::filesystem::path nameOfFrame(const std::filesystem::path& pattern, int frame) {
   std::string name = pattern.string();
   const std::string place = "%04d";
@@ -128,16 +127,18 @@ bool needsExposure(const Options& options) {
   return isRadiance(options) && std::any_of(options.out.begin(), options.out.end(), isPng);
 }
 
+std::vector<std::uint8_t> displayed(const std::vector<float>& rgb, const Options& options, float exposure) {
+  return isRadiance(options) ? host::toneMap(rgb.data(), options.width, options.height, exposure, options.supersample)
+                             : host::encodeColours(rgb.data(), options.width, options.height, options.supersample);
+}
+
 void writePicture(const std::filesystem::path& file, const Picture& picture, const Options& options, float exposure) {
   if (!isPng(file)) {
     host::writeExr(file, imageOf(picture, renderedWidth(options), renderedHeight(options)));
     return;
   }
   const std::vector<float> rgb = topDownRgb(picture.composite, renderedWidth(options), renderedHeight(options));
-  host::writePng(file, options.width, options.height,
-                 isRadiance(options)
-                     ? host::toneMap(rgb.data(), options.width, options.height, exposure, options.supersample)
-                     : host::encodeColours(rgb.data(), options.width, options.height, options.supersample));
+  host::writePng(file, options.width, options.height, displayed(rgb, options, exposure));
 }
 
 bool isWholePicture(const std::filesystem::path& file, const Options& options) {

@@ -4,10 +4,14 @@
 #include "Options.h"
 #include "RenderFrame.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
 namespace render {
+
+/// The composite as RGB, row 0 on top.
+std::vector<float> topDownRgb(const std::vector<float>& bottomUpRgba, int width, int height);
 
 /// The name of a frame's picture: %04d becomes the number.
 std::filesystem::path nameOfFrame(const std::filesystem::path& pattern, int frame);
@@ -18,6 +22,10 @@ float exposureOf(const Picture& picture);
 
 /// Whether one of the options' pictures depends on the exposure.
 bool needsExposure(const Options& options);
+
+/// 8-bit sRGB of the picture's size, row 0 on top, of the linear colours of all rendered pixels, three floats each, row
+/// 0 on top: as the view asks for, radiance by the film curve.
+std::vector<std::uint8_t> displayed(const std::vector<float>& rgb, const Options& options, float exposure);
 
 /// Writes an EXR or a PNG, by the extension. Throws host::Error.
 void writePicture(const std::filesystem::path& file, const Picture& picture, const Options& options, float exposure);

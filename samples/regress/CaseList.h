@@ -1,0 +1,46 @@
+// The list of cases: a JSON file.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <render/Options.h>
+#include <string>
+#include <vector>
+
+namespace regress {
+
+/// What a picture may differ by from its reference. Differences are relative to the mean of the reference.
+struct Tolerance {
+  double rRmse = 0.005;       ///< root of the mean squared difference of all channels
+  double p99 = 0.005;         ///< 99th percentile of the pixels' differences
+  double max = 1;             ///< the largest one
+  double pixel = 0.02;        ///< from which on a pixel counts as another one
+  double over = 0.002;        ///< share of such pixels
+  std::optional<double> flip; ///< mean FLIP of the displayed pictures; none: not judged
+};
+
+struct Case {
+  std::string name;               ///< of letters, digits, - _ and ., unique in the list
+  std::vector<std::string> words; ///< options as for tyndall-render, --name or --name=value
+  render::Options options;        ///< the same, parsed
+  Tolerance tolerance;
+};
+
+/// Relative names of scenes start from `scenes`, those of media from the list's folder. Throws host::Error, with a line
+/// that names file, case, field and rule.
+std::vector<Case> readCases(const std::filesystem::path& list, const std::filesystem::path& scenes);
+
+/// Those whose whole name matches the regular expression. Throws render::UsageError if there is none.
+std::vector<Case> only(const std::vector<Case>& cases, const std::string& pattern);
+
+/// Every `count`-th case, from the `index`-th on, which counts from 1.
+struct Share {
+  int index = 1;
+  int count = 1;
+};
+std::vector<Case> shareOf(const std::vector<Case>& cases, const Share& share);
+
+/// "K/N". Throws render::UsageError.
+Share parseShare(const std::string& text);
+
+} // namespace regress
