@@ -24,7 +24,7 @@ render() {
 # film NAME QUALITY: its frames as an animated WebP that loops, 24 a second. All are key frames: what is kept from frame to
 # frame shows as blocks in fog.
 film() {
-  img2webp -loop 0 -kmin 0 -kmax 1 -lossy -q "$2" -m 6 -d 42 "$frames/$1"-*.png -o "out/gallery/$1.webp"
+  img2webp -loop 0 -kmin 0 -kmax 1 -lossy -q "$2" -m 4 -d 42 "$frames/$1"-*.png -o "out/gallery/$1.webp"
   ls -l "out/gallery/$1.webp"
 }
 
