@@ -23,12 +23,14 @@ CLI::Option* chooseFrom(const Names<Value>& names, CLI::Option* option) {
   return option->transform(toValue)->transform(CLI::IsMember(names))->type_name("NAME");
 }
 
-/// An option of values that single commas separate, none of them twice; `read` makes each one of its text.
+/// An option of values that single commas separate, none of them twice; `read` makes each one of its text. "all" stands
+/// for the values of `all`, if there are any.
 template <typename Value, typename Read>
 CLI::Option* addList(CLI::App& app, const std::string& name, std::vector<Value>& list, Read read,
-                     const std::string& help) {
-  const auto readAll = [name, &list, read](const std::string& text) {
-    list.clear();
+                     const std::string& help, const std::vector<Value>& all = {}) {
+  const auto readAll = [name, &list, read, all](const std::string& text) {
+    list = text == "all" ? all : std::vector<Value>();
+    if (!list.empty()) return;
     for (const std::string& part : splitList(name, text))
       list.push_back(read(part));
   };
