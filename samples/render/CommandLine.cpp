@@ -46,6 +46,14 @@ CLI::Validator numberThat(const std::string& rule, const std::function<bool(doub
       "");
 }
 
+std::function<std::string(const std::string&)> oneOf(const std::string& option, const std::vector<std::string>& names) {
+  return [option, names](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      failUsage(option, name, fmt::format("must be one of {}", fmt::join(names, ", ")));
+    return name;
+  };
+}
+
 void failUsage(const std::string& option, const std::string& value, const std::string& rule) {
   throw UsageError(fmt::format("{} {}: {}", option, value, rule));
 }
@@ -70,13 +78,6 @@ host::ContextKind parseContext(const std::string& option, const std::string& val
   for (const auto& [name, kind] : kContextNames)
     if (name == value) return kind;
   failUsage(option, value, "must be osmesa, egl or glfw");
-}
-
-const std::string& requireOneOf(const std::string& option, const std::string& value,
-                                const std::vector<std::string>& names) {
-  const auto found = std::find(names.begin(), names.end(), value);
-  if (found == names.end()) failUsage(option, value, fmt::format("must be one of {}", fmt::join(names, ", ")));
-  return *found;
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {

@@ -50,10 +50,6 @@ std::pair<int, int> parseSize(const std::string& option, const std::string& valu
 /// Throws UsageError.
 host::ContextKind parseContext(const std::string& option, const std::string& value);
 
-/// One of the names. Throws UsageError.
-const std::string& requireOneOf(const std::string& option, const std::string& value,
-                                const std::vector<std::string>& names);
-
 /// The parts between separators: at least one, which may be empty.
 std::vector<std::string> split(const std::string& text, char separator);
 

@@ -23,6 +23,9 @@ CLI::Option* chooseFrom(const Names<Value>& names, CLI::Option* option) {
   return option->transform(toValue)->transform(CLI::IsMember(names))->type_name("NAME");
 }
 
+/// For addList(): one of these names.
+std::function<std::string(const std::string&)> oneOf(const std::string& option, const std::vector<std::string>& names);
+
 /// An option of values that single commas separate, none of them twice; `read` makes each one of its text. "all" stands
 /// for the values of `all`, if there are any.
 template <typename Value, typename Read>

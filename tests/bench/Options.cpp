@@ -90,13 +90,10 @@ void applyAll(Given& given, Options& options) {
 void addLists(CLI::App& app, Given& given) {
   using render::addList;
   Request& request = given.request;
-  const auto oneOf = [](const char* option, const std::vector<std::string>& names) {
-    return [=](const std::string& name) { return render::requireOneOf(option, name, names); };
-  };
   const auto intFrom = [](const char* option, int low, int high) {
     return [=](const std::string& part) { return render::parseInt(option, part, low, high); };
   };
-  addList(app, "--scenes", request.scenes, oneOf("--scenes", tests::sampleScenes()),
+  addList(app, "--scenes", request.scenes, render::oneOf("--scenes", tests::sampleScenes()),
           "sample scenes, or all (default nave)", tests::sampleScenes());
   addList(app, "--techniques", request.techniques, techniqueOf, "see below, or all (default)",
           techniquesOf(allTechniques()));
@@ -111,7 +108,7 @@ void addLists(CLI::App& app, Given& given) {
   addList(
       app, "--contexts", request.contexts,
       [](const std::string& name) { return render::parseContext("--contexts", name); }, "osmesa (default), egl, glfw");
-  addList(app, "--references", given.references, oneOf("--references", {"map", "scene"}),
+  addList(app, "--references", given.references, render::oneOf("--references", {"map", "scene"}),
           "judge against these as well as exact: map, scene");
 }
 

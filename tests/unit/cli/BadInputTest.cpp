@@ -73,6 +73,30 @@ TEST_CASE("tyndall-render refuses wrong usage with exit code 2") {
   checkUsageError({"triangle.gltf", "--view", "3"}, {"--view: 3"});
 }
 
+TEST_CASE("every tool refuses wrong usage with two lines and exit code 2") {
+  const tests::ToolFolder folder;
+  const std::pair<std::string, std::string> cases[] = {
+      {"tyndall-make-scenes", "OUTDIR"},
+      {"tyndall-make-scenes . cathedral", "cathedral not in {cage,"},
+      {"tyndall-make-scenes '' smoke", "OUTDIR"},
+      {"tyndall-sequence triangle.gltf", "--frames"},
+      {"tyndall-bench --runs 0x10", "--runs: 0x10"},
+      {"tyndall-avsm-bench --size 7", "--size: "},
+      {"tyndall-avsm-bench --scenes fog", "--scenes fog: must be one of"},
+      {"tyndall-accuracy --all", "--all"},
+      {"tyndall-low-rank ''", "SCENE"}};
+  for (const auto& [command, mention] : cases) {
+    const tests::ToolResult result = folder.shell(command);
+    CAPTURE(command, result.out, result.err);
+    CHECK(result.exitCode == 2);
+    CHECK(result.out.empty());
+    REQUIRE(result.errLines().size() == 2);
+    CHECK_THAT(result.errLines()[0], Catch::StartsWith(command.substr(0, command.find(' ')) + ": "));
+    CHECK_THAT(result.errLines()[0], Catch::Contains(mention));
+  }
+  CHECK(folder.files() == kUntouched);
+}
+
 TEST_CASE("tyndall-render takes only whole numbers within their ranges") {
   for (const std::string size : {"0x10", "10x0", "16385x10", "10x16385", "-1x5", "10", "x", "10x", "10x10x10", "1ax2",
                                  "1.5x2", " 10x10", "99999999999x1", "nan"})
