@@ -30,7 +30,7 @@ install_packages() {
 }
 
 # shellcheck disable=SC2034 # used where this is sourced
-build_packages="g++ cmake ninja-build pkg-config libglm-dev libeigen3-dev libtinygltf-dev libstb-dev nlohmann-json3-dev
+build_packages="g++ cmake ninja-build pkg-config libglm-dev libeigen3-dev libstb-dev nlohmann-json3-dev
   libopenexr-dev libpng-dev libcli11-dev libfmt-dev libglfw3-dev libegl-dev libgl-dev libosmesa6? libegl1 libegl-mesa0
   libgl1-mesa-dri libglx-mesa0"
 # shellcheck disable=SC2034

@@ -3,48 +3,26 @@
 #include "gl/SmokeShaders.h"
 
 #include <algorithm>
-#include <tyndall/avsm.h>
 
 namespace host {
 
 namespace {
 
-constexpr GLuint kParticles = kFirstFreeUnit;
-constexpr GLuint kLight = kFirstFreeUnit + 1;
-constexpr GLuint kDepth = kFirstFreeUnit + 2;
 constexpr int kTile = 4; ///< points across a particle where it is lit, as in the shaders
 constexpr int kTilesAcross = 256;
 
-Program makeProgram() {
-  const std::string version = "#version 330 core\n";
-  return {"smoke", (version + shaders::kSmokeVertex).c_str(),
-          (version + shaders::kSmokeChord + shaders::kSmokeFragment).c_str()};
-}
-
-Program makeCapture() {
-  const std::string version = "#version 430 core\n";
-  const std::string fragment = version + tyndall::avsmCaptureSource() + shaders::kSmokeChord + shaders::kSmokeCapture;
-  return {"smoke capture", (version + shaders::kSmokeVertex).c_str(), fragment.c_str()};
-}
-
-glm::dvec3 middleOf(const std::vector<SmokeParticle>& particles) {
-  if (particles.empty()) {
-    return glm::dvec3(0);
-  }
-  glm::dvec3 low = particles.front().position;
-  glm::dvec3 high = low;
-  for (const SmokeParticle& particle : particles) {
-    low = glm::min(low, particle.position);
-    high = glm::max(high, particle.position);
-  }
-  return 0.5 * (low + high);
-}
+constexpr QuadShaders kShaders = {"smoke",
+                                  shaders::kSmokeVertex,
+                                  shaders::kSmokeChord,
+                                  shaders::kSmokeFragment,
+                                  shaders::kSmokeCapture,
+                                  shaders::kSmokeLight,
+                                  GL_LINEAR};
 
 } // namespace
 
 SmokeRenderer::SmokeRenderer(std::vector<SmokeParticle> particles)
-    : buffer_(GL_RGBA32F), light_("smoke light", shaders::kSmokeLight, GL_LINEAR), smoke_(makeProgram()),
-      depthFramebuffer_(makeFramebuffer()), empty_(makeVertexArray()) {
+    : QuadRenderer(kShaders), buffer_(GL_RGBA32F), depthFramebuffer_(makeFramebuffer()) {
   set(std::move(particles));
 }
 
@@ -53,7 +31,7 @@ void SmokeRenderer::set(std::vector<SmokeParticle> particles) {
   particles_.erase(std::remove_if(particles_.begin(), particles_.end(),
                                   [](const SmokeParticle& particle) { return !(particle.density > 0); }),
                    particles_.end());
-  origin_ = middleOf(particles_);
+  centreOn(particles_);
   upload(particles_);
 }
 
@@ -61,11 +39,15 @@ void SmokeRenderer::upload(const std::vector<SmokeParticle>& particles) {
   std::vector<glm::vec4> texels;
   texels.reserve(2 * particles.size());
   for (const SmokeParticle& particle : particles) {
-    texels.emplace_back(glm::vec3(particle.position - origin_), static_cast<float>(particle.radius));
+    texels.emplace_back(glm::vec3(particle.position - origin()), static_cast<float>(particle.radius));
     texels.emplace_back(particle.albedo, static_cast<float>(particle.density));
   }
   gl().ActiveTexture(GL_TEXTURE0 + kParticles);
   buffer_.upload(texels.data(), texels.size(), sizeof(glm::vec4), "smoke");
+}
+
+glm::ivec2 SmokeRenderer::lightSize() const {
+  return {kTile * kTilesAcross, kTile * rowsOf(particles_.size(), kTilesAcross)};
 }
 
 /// Farthest first.
@@ -84,39 +66,26 @@ void SmokeRenderer::sort(const CameraView& camera) {
   upload(particles_);
 }
 
-void SmokeRenderer::setView(Program& program, const glm::dmat4& clipFromWorld, const glm::vec4& eye) const {
-  const glm::dmat4 clipFromRelative = clipFromWorld * translation(origin_);
+void SmokeRenderer::setView(Program& program, const glm::dmat4& clipFromWorld) const {
   buffer_.bind(kParticles);
   program.set("particles", static_cast<int>(kParticles));
-  program.set("clipFromRelative", glm::mat4(clipFromRelative));
-  program.set("relativeFromClip", glm::mat4(glm::inverse(clipFromRelative)));
-  program.set("eye", eye);
+  program.set("relativeFromClip", glm::mat4(glm::inverse(clipFromWorld * translation(origin()))));
 }
 
 void SmokeRenderer::capture(const CaptureView& view) {
   if (particles_.empty()) {
     return;
   }
-  if (!capture_) {
-    capture_ = makeCapture();
-  }
-  capture_->use();
-  const glm::dvec4 light = view.light - view.light.w * glm::dvec4(origin_, 0);
-  setView(*capture_, view.clipFromWorld, glm::vec4(light));
-  const glm::dvec3 slope(view.depthPlane);
-  capture_->set("depthPlane", glm::vec4(slope, glm::dot(slope, origin_) + view.depthPlane.w));
-  capture_->set("layer", view.layer);
-  gl().BindVertexArray(empty_.name());
-  gl().DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count());
+  setView(beginCapture(view), view.clipFromWorld);
+  drawQuads(particles_.size());
 }
 
-void SmokeRenderer::light(const CameraView& camera, const Illumination& illumination) {
-  const int rows = (count() + kTilesAcross - 1) / kTilesAcross;
-  light_.render({kTile * kTilesAcross, kTile * rows}, illumination, origin_, [&](Program& program) {
+void SmokeRenderer::lightUp(const CameraView& camera, const Illumination& illumination) {
+  light().render(lightSize(), illumination, origin(), [&](Program& program) {
     buffer_.bind(kParticles);
     program.set("particles", static_cast<int>(kParticles));
     program.set("tilesAcross", kTilesAcross);
-    program.set("count", count());
+    program.set("count", static_cast<int>(particles_.size()));
     program.set("right", glm::vec3(glm::normalize(glm::dvec3(camera.worldFromView[0]))));
     program.set("up", glm::vec3(glm::normalize(glm::dvec3(camera.worldFromView[1]))));
   });
@@ -141,14 +110,14 @@ void SmokeRenderer::copyDepth(const RenderTargets& targets) {
 }
 
 /// How the depth buffer's values become view depths: of the inverse projection only rows z and w matter.
-void SmokeRenderer::setDepth(const CameraView& camera) {
+void SmokeRenderer::setDepth(Program& program, const CameraView& camera) const {
   const bool zeroToOne = camera.convention.clipDepth == tyndall::ClipDepth::ZeroToOne;
   const glm::dmat4 viewFromClip = glm::inverse(camera.clipFromView);
-  smoke_.set("ndcFromDepth", zeroToOne ? glm::vec2(1, 0) : glm::vec2(2, -1));
-  smoke_.set("depthFromNdc",
-             glm::vec4(-viewFromClip[2][2], -viewFromClip[3][2], viewFromClip[2][3], viewFromClip[3][3]));
-  smoke_.set("forward", glm::vec3(-glm::normalize(glm::dvec3(camera.worldFromView[2]))));
-  smoke_.set("viewpoint", glm::vec3(camera.eye - origin_));
+  program.set("ndcFromDepth", zeroToOne ? glm::vec2(1, 0) : glm::vec2(2, -1));
+  program.set("depthFromNdc",
+              glm::vec4(-viewFromClip[2][2], -viewFromClip[3][2], viewFromClip[2][3], viewFromClip[3][3]));
+  program.set("forward", glm::vec3(-glm::normalize(glm::dvec3(camera.worldFromView[2]))));
+  program.set("viewpoint", glm::vec3(camera.eye - origin()));
 }
 
 void SmokeRenderer::draw(const CameraView& camera, const Illumination& illumination, const RenderTargets& targets) {
@@ -156,30 +125,21 @@ void SmokeRenderer::draw(const CameraView& camera, const Illumination& illuminat
     return;
   }
   sort(camera);
-  light(camera, illumination);
+  lightUp(camera, illumination);
   copyDepth(targets);
-  gl().BindFramebuffer(GL_FRAMEBUFFER, targets.framebuffer());
-  gl().Viewport(0, 0, targets.width(), targets.height());
+  Program& smoke = beginPicture(camera, targets);
   gl().Disable(GL_DEPTH_TEST);
-  gl().Enable(GL_BLEND);
   gl().BlendFunc(GL_ONE, GL_SRC_ALPHA);
-  gl().ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
-  smoke_.use();
-  setView(smoke_, camera.clipFromWorld, camera.viewerFrom(origin_));
-  setDepth(camera);
-  smoke_.set("right", glm::vec3(glm::normalize(glm::dvec3(camera.worldFromView[0]))));
-  smoke_.set("up", glm::vec3(glm::normalize(glm::dvec3(camera.worldFromView[1]))));
-  const int rows = (count() + kTilesAcross - 1) / kTilesAcross;
-  smoke_.set("tileSize", glm::vec2(kTile * kTilesAcross, kTile * rows));
-  smoke_.set("tilesAcross", kTilesAcross);
-  gl().ActiveTexture(GL_TEXTURE0 + kLight);
-  gl().BindTexture(GL_TEXTURE_2D, light_.texture());
-  smoke_.set("light", static_cast<int>(kLight));
+  setView(smoke, camera.clipFromWorld);
+  setDepth(smoke, camera);
+  smoke.set("right", glm::vec3(glm::normalize(glm::dvec3(camera.worldFromView[0]))));
+  smoke.set("up", glm::vec3(glm::normalize(glm::dvec3(camera.worldFromView[1]))));
+  smoke.set("tileSize", glm::vec2(lightSize()));
+  smoke.set("tilesAcross", kTilesAcross);
   gl().ActiveTexture(GL_TEXTURE0 + kDepth);
   gl().BindTexture(GL_TEXTURE_2D, depth_.name());
-  smoke_.set("sceneDepth", static_cast<int>(kDepth));
-  gl().BindVertexArray(empty_.name());
-  gl().DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count());
+  smoke.set("sceneDepth", static_cast<int>(kDepth));
+  drawQuads(particles_.size());
 }
 
 } // namespace host

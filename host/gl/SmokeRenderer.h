@@ -2,16 +2,12 @@
 #pragma once
 
 #include "gl/BufferTexture.h"
-#include "gl/CameraView.h"
-#include "gl/LightTexture.h"
-#include "gl/RenderTargets.h"
+#include "gl/QuadRenderer.h"
 #include "scene/Smoke.h"
-
-#include <optional>
 
 namespace host {
 
-class SmokeRenderer {
+class SmokeRenderer : QuadRenderer {
 public:
   explicit SmokeRenderer(std::vector<SmokeParticle> particles);
 
@@ -25,25 +21,22 @@ public:
   void draw(const CameraView& camera, const Illumination& illumination, const RenderTargets& targets);
 
 private:
+  static constexpr GLuint kParticles = kFirstOwnUnit, kDepth = kFirstOwnUnit + 1;
+
   void upload(const std::vector<SmokeParticle>& particles);
   void sort(const CameraView& camera);
-  void light(const CameraView& camera, const Illumination& illumination);
+  glm::ivec2 lightSize() const;
+  void lightUp(const CameraView& camera, const Illumination& illumination);
   void copyDepth(const RenderTargets& targets);
-  void setView(Program& program, const glm::dmat4& clipFromWorld, const glm::vec4& eye) const;
-  void setDepth(const CameraView& camera);
-  GLsizei count() const { return static_cast<GLsizei>(particles_.size()); }
+  void setView(Program& program, const glm::dmat4& clipFromWorld) const;
+  void setDepth(Program& program, const CameraView& camera) const;
 
   std::vector<SmokeParticle> particles_;
-  glm::dvec3 origin_{0}; ///< of relative positions: the middle of all
   BufferTexture buffer_;
-  LightTexture light_;
-  Program smoke_;
-  std::optional<Program> capture_; ///< needs OpenGL 4.3
-  GlTexture depth_;                ///< the targets' depth, which cannot be read while it is attached
+  GlTexture depth_; ///< the targets' depth, which cannot be read while it is attached
   GlFramebuffer depthFramebuffer_;
   glm::ivec2 depthSize_{0};
   GLenum depthFormat_ = GL_NONE;
-  GlVertexArray empty_;
 };
 
 } // namespace host

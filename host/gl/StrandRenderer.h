@@ -2,16 +2,12 @@
 #pragma once
 
 #include "gl/BufferTexture.h"
-#include "gl/CameraView.h"
-#include "gl/LightTexture.h"
-#include "gl/RenderTargets.h"
+#include "gl/QuadRenderer.h"
 #include "scene/Strands.h"
-
-#include <optional>
 
 namespace host {
 
-class StrandRenderer {
+class StrandRenderer : QuadRenderer {
 public:
   explicit StrandRenderer(Strands strands);
 
@@ -25,20 +21,16 @@ public:
   void draw(const CameraView& camera, const Illumination& illumination, const RenderTargets& targets);
 
 private:
+  static constexpr GLuint kPoints = kFirstOwnUnit, kSegments = kFirstOwnUnit + 1;
+
   void uploadPoints();
   void uploadSorted(const CameraView& camera);
-  void light(const CameraView& camera, const Illumination& illumination);
-  void setView(Program& program, const glm::dmat4& clipFromWorld, const glm::vec4& eye, double pixelSize) const;
-  GLsizei count() const { return static_cast<GLsizei>(strands_.segments.size()); }
+  void lightUp(const CameraView& camera, const Illumination& illumination);
+  void setSegments(Program& program, double pixelSize) const;
 
   Strands strands_;
-  glm::dvec3 origin_{0}; ///< of relative positions: the middle of all
   BufferTexture points_;
   BufferTexture segments_;
-  LightTexture light_;
-  Program strand_;
-  std::optional<Program> capture_; ///< needs OpenGL 4.3
-  GlVertexArray empty_;
 };
 
 } // namespace host

@@ -16,34 +16,13 @@ namespace host {
 
 namespace {
 
-/// Hands tinygltf what it needs for its model. Buffers and images are ours to bound and to load, skins are ignored, and
-/// indices are left out as tinygltf refuses those without a buffer view.
-void parseModel(gltf::Document& document) {
-  nlohmann::json json = nlohmann::json::object();
-  for (const auto& [key, value] : document.json.items()) {
-    if (key != "buffers" && key != "images" && key != "skins" && key != "extras") json[key] = value;
-  }
-  for (std::size_t mesh = 0; mesh < document.count("meshes"); ++mesh) {
-    for (nlohmann::json& primitive : json["meshes"][mesh]["primitives"]) {
-      primitive.erase("indices");
-    }
-  }
-  const std::string text = json.dump();
-  tinygltf::TinyGLTF parser;
-  std::string error;
-  std::string warning;
-  const bool parsed = parser.LoadASCIIFromString(&document.model, &error, &warning, text.data(),
-                                                 static_cast<unsigned int>(text.size()), "", tinygltf::NO_REQUIRE);
-  if (!parsed) document.refuse("", error.empty() ? "is not glTF" : error);
-  if (!error.empty()) document.note("tinygltf", error);
-}
-
 /// Scene extras: {"tyndall": {"medium": {...}, "sky": [r, g, b]}}.
 void readTyndallExtras(gltf::Document& document, Scene& scene) {
-  if (document.model.scenes.empty()) return;
-  const auto index = static_cast<std::size_t>(std::max(document.model.defaultScene, 0));
-  const nlohmann::json& source = document.json["scenes"][index];
-  scene.name = document.model.scenes[index].name;
+  const int shown = document.shownScene();
+  if (shown < 0) return;
+  const auto index = static_cast<std::size_t>(shown);
+  const nlohmann::json& source = document.element("scenes", index);
+  scene.name = gltf::nameOf(source);
   const auto extras = source.find("extras");
   if (extras == source.end() || !extras->is_object() || !extras->contains("tyndall")) return;
   const std::string where = gltf::at("scenes", index, "extras.tyndall");
@@ -89,7 +68,6 @@ Scene loadScene(const std::filesystem::path& file) {
   try {
     gltf::readContainer(document);
     gltf::check(document);
-    parseModel(document);
     gltf::loadBuffers(document);
     return convert(document);
   } catch (const nlohmann::json::exception& error) {

@@ -1,14 +1,58 @@
-#include "CommandLine.h"
+#include "OptionRules.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
-#include <scene/Error.h>
 #include <scene/Tool.h>
 #include <system_error>
 #include <tyndall/tyndall.h>
 
 namespace render {
+
+namespace {
+
+/// What CLI11 would let pass.
+std::string strictNumber(std::string& text, bool whole) {
+  if (const auto number = parseWhole<std::int64_t>(text); whole && number) {
+    text = std::to_string(*number);
+    return {};
+  }
+  if (const auto number = parseWhole<double>(text); !whole && number && std::isfinite(*number)) return {};
+  return fmt::format("{} is not a {} number", text, whole ? "whole" : "finite");
+}
+
+void makeStrict(CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const bool whole = type.rfind("INT", 0) == 0, number = whole || type.rfind("FLOAT", 0) == 0;
+  option.transform(CLI::Validator(
+      [whole, number](std::string& text) {
+        if (text.empty()) return std::string("must not be empty");
+        return number ? strictNumber(text, whole) : std::string();
+      },
+      ""));
+}
+
+} // namespace
+
+const Names<host::ContextKind> kContextNames = {
+    {"osmesa", host::ContextKind::Osmesa}, {"egl", host::ContextKind::Egl}, {"glfw", host::ContextKind::Glfw}};
+
+CLI::Validator numberThat(const std::string& rule, const std::function<bool(double)>& holds) {
+  return CLI::Validator(
+      [rule, holds](std::string& text) {
+        const auto number = parseWhole<double>(text);
+        return number && holds(*number) ? std::string() : text + " " + rule;
+      },
+      "");
+}
+
+std::function<std::string(const std::string&)> oneOf(const std::string& option, const std::vector<std::string>& names) {
+  return [option, names](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      failUsage(option, name, fmt::format("must be one of {}", fmt::join(names, ", ")));
+    return name;
+  };
+}
 
 void failUsage(const std::string& option, const std::string& value, const std::string& rule) {
   throw UsageError(fmt::format("{} {}: {}", option, value, rule));
@@ -31,11 +75,9 @@ std::pair<int, int> parseSize(const std::string& option, const std::string& valu
 }
 
 host::ContextKind parseContext(const std::string& option, const std::string& value) {
-  try {
-    return host::parseContextKind(value);
-  } catch (const host::Error&) {
-    failUsage(option, value, "must be osmesa, egl or glfw");
-  }
+  for (const auto& [name, kind] : kContextNames)
+    if (name == value) return kind;
+  failUsage(option, value, "must be osmesa, egl or glfw");
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -45,6 +87,15 @@ std::vector<std::string> split(const std::string& text, char separator) {
       parts.emplace_back();
     else
       parts.back() += c;
+  return parts;
+}
+
+std::vector<std::string> splitList(const std::string& option, const std::string& text) {
+  std::vector<std::string> parts = split(text, ',');
+  for (auto part = parts.begin(); part != parts.end(); ++part) {
+    if (part->empty()) failUsage(option, "\"" + text + "\"", "must be a list separated by single commas");
+    if (std::find(parts.begin(), part, *part) != part) failUsage(option, text, "names " + *part + " twice");
+  }
   return parts;
 }
 
@@ -65,6 +116,8 @@ int runCommand(const char* name, const std::function<int()>& body) {
 }
 
 void parseArguments(CLI::App& app, int argc, const char* const* argv) {
+  for (CLI::Option* option : app.get_options())
+    makeStrict(*option);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -74,9 +127,6 @@ void parseArguments(CLI::App& app, int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     throw UsageError(error.what());
   }
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& value : option->results())
-      if (value.empty()) failUsage(option->get_name(), "\"\"", "must not be empty");
 }
 
 } // namespace render

@@ -1,5 +1,5 @@
-// What the command lines of Tyndall's tools share: errors that name option, value and rule, and how values are read.
-// Numbers are parsed here and not by CLI11, so that nothing but a whole number passes for one.
+// What the command lines of Tyndall's tools share: errors that name option, value and rule, and how values are read
+// that CLI11 cannot. Rules for options: OptionRules.h.
 #pragma once
 
 #include <charconv>
@@ -53,12 +53,15 @@ host::ContextKind parseContext(const std::string& option, const std::string& val
 /// The parts between separators: at least one, which may be empty.
 std::vector<std::string> split(const std::string& text, char separator);
 
+/// The parts between single commas, none of them twice. Throws UsageError.
+std::vector<std::string> splitList(const std::string& option, const std::string& text);
+
 /// main() of a tool with options: host::runTool(), and 2 with a second line, how to get help, for a UsageError. An
 /// Answer is printed.
 int runCommand(const char* name, const std::function<int()>& body);
 
-/// Fills in what `app` describes. Throws UsageError, also for an option given as "", which must not pass for one left
-/// out, or Answer.
+/// Fills in what `app` describes. Throws UsageError or Answer. Stricter than CLI11: an option given as "" must not pass
+/// for one left out, whole numbers are decimal (neither 0x10 nor 1'000, and 010 is ten), others are finite.
 void parseArguments(CLI::App& app, int argc, const char* const* argv);
 
 } // namespace render

@@ -3,8 +3,8 @@
 #include "Generators.h"
 #include "GlbWriter.h"
 #include "MeshBuilder.h"
-#include <CLI/CLI.hpp>
 #include <filesystem>
+#include <render/OptionRules.h>
 #include <scene/Tool.h>
 
 namespace {
@@ -25,7 +25,7 @@ void run(const std::string& folder, std::vector<std::string> names) {
 }
 
 int parseAndRun(int argc, char** argv) {
-  CLI::App app{"Writes Tyndall's sample scenes"};
+  CLI::App app("Writes Tyndall's sample scenes.", "tyndall-make-scenes");
   std::string folder, model;
   std::vector<std::string> names;
   std::vector<std::string> known;
@@ -36,11 +36,7 @@ int parseAndRun(int argc, char** argv) {
                  "a glTF file: writes its model turning in a box with a lamp, as OUTDIR/turntable-NAME.glb")
       ->check(CLI::ExistingFile);
   app.add_option("NAME", names, "scenes to write; all if none is named")->check(CLI::IsMember(known));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
+  render::parseArguments(app, argc, argv);
   if (!model.empty()) {
     std::filesystem::create_directories(folder);
     write(scenes::makeTurntable(model), folder, "turntable-" + std::filesystem::path(model).stem().string());
@@ -52,5 +48,5 @@ int parseAndRun(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
-  return host::runTool("tyndall-make-scenes", [&] { return parseAndRun(argc, argv); });
+  return render::runCommand("tyndall-make-scenes", [&] { return parseAndRun(argc, argv); });
 }

@@ -2,10 +2,7 @@
 
 #include "render/SceneAnswers.h"
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <fmt/format.h>
-#include <render/CommandLine.h>
+#include <render/OptionRules.h>
 #include <scene/Error.h>
 #include <scene/FileIo.h>
 
@@ -15,198 +12,154 @@ namespace {
 
 using render::failUsage;
 
-constexpr int kLeastRuns = 5;
-constexpr int kMostRuns = 1000;
 constexpr const char* kAllFolder = "bench-report";
 
-/// The options as typed; lists are separated by commas.
-struct Typed {
-  std::string scenes, techniques, sizes, shadowSizes, lights, densities, contexts, references, runs, out, cache;
-  bool quick = false, all = false, plots = false, scaling = false, floors = false;
+/// What does not go into the options as it is.
+struct Given {
+  Request request;
+  std::vector<std::string> references;
+  bool quick = false, all = false, scaling = false;
 };
 
-std::vector<std::string> splitList(const std::string& option, const std::string& value) {
-  std::vector<std::string> parts = render::split(value, ',');
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (parts[i].empty()) failUsage(option, "\"" + value + "\"", "must be a list separated by single commas");
-    if (std::find(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(i), parts[i]) !=
-        parts.begin() + static_cast<std::ptrdiff_t>(i))
-      failUsage(option, value, "names " + parts[i] + " twice");
+double parseDensity(const std::string& part) {
+  const auto number = render::parseWhole<double>(part);
+  if (!number || !(*number > 0 && *number <= 1e6))
+    failUsage("--densities", part, "must be numbers above 0, at most 1e6");
+  return *number;
+}
+
+Technique techniqueOf(const std::string& name) {
+  try {
+    return parseTechnique(name);
+  } catch (const std::invalid_argument& error) {
+    throw render::UsageError(std::string("--techniques ") + error.what());
   }
-  return parts;
 }
 
-std::vector<int> parseInts(const std::string& option, const std::string& value, int low, int high) {
-  std::vector<int> numbers;
-  for (const std::string& part : splitList(option, value))
-    numbers.push_back(render::parseInt(option, part, low, high));
-  return numbers;
-}
-
-std::vector<double> parseDensities(const std::string& value) {
-  std::vector<double> numbers;
-  for (const std::string& part : splitList("--densities", value)) {
-    const auto number = render::parseWhole<double>(part);
-    if (!number || !(*number > 0 && *number <= 1e6))
-      failUsage("--densities", part, "must be numbers above 0, at most 1e6");
-    numbers.push_back(*number);
-  }
-  return numbers;
-}
-
-std::vector<std::pair<int, int>> parseSizes(const std::string& value) {
-  std::vector<std::pair<int, int>> sizes;
-  for (const std::string& part : splitList("--sizes", value))
-    sizes.push_back(render::parseSize("--sizes", part, 16));
-  return sizes;
-}
-
-std::vector<std::string> parseScenes(const std::string& value) {
-  const std::vector<std::string>& known = tests::sampleScenes();
-  if (value == "all") return known;
-  std::vector<std::string> names = splitList("--scenes", value);
-  for (const std::string& name : names)
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      failUsage("--scenes", name, fmt::format("must be all or of {}", fmt::join(known, ", ")));
-  return names;
-}
-
-std::vector<Technique> parseTechniques(const std::string& value) {
+std::vector<Technique> techniquesOf(const std::vector<std::string>& names) {
   std::vector<Technique> techniques;
-  for (const std::string& name : value == "all" ? allTechniques() : splitList("--techniques", value))
-    try {
-      techniques.push_back(parseTechnique(name));
-    } catch (const std::invalid_argument& error) {
-      throw render::UsageError(std::string("--techniques ") + error.what());
-    }
+  for (const std::string& name : names)
+    techniques.push_back(techniqueOf(name));
   return techniques;
 }
 
-std::vector<host::ContextKind> parseContexts(const std::string& value) {
-  std::vector<host::ContextKind> kinds;
-  for (const std::string& name : splitList("--contexts", value))
-    kinds.push_back(render::parseContext("--contexts", name));
-  return kinds;
-}
-
-void requireWritableFolder(const std::string& option, const std::filesystem::path& folder) {
-  if (!std::filesystem::is_directory(folder)) failUsage(option, folder.string(), "must be a folder that exists");
+/// Empty, or why nothing can be written there.
+std::string reasonAgainst(const std::filesystem::path& folder) {
   try {
     host::requireWritable(folder / "bench.csv");
   } catch (const host::Error& error) {
-    failUsage(option, folder.string(), std::string("must be a folder that can be written to: ") + error.what());
+    return std::string("must be a folder that can be written to: ") + error.what();
   }
+  return {};
 }
 
-void readReferences(const Typed& typed, Options& options) {
-  if (typed.references.empty()) return;
-  for (const std::string& name : splitList("--references", typed.references)) {
-    if (name != "map" && name != "scene") failUsage("--references", name, "must be of map, scene");
-    (name == "map" ? options.mapExact : options.sceneExact) = true;
+void readOutputs(const Given& given, Options& options) {
+  if (given.all) {
+    options.plots = true;
+    if (options.out.empty()) {
+      options.out = kAllFolder;
+      std::error_code ignored;
+      std::filesystem::create_directory(kAllFolder, ignored);
+      if (const std::string reason = reasonAgainst(options.out); !reason.empty())
+        failUsage("--out", kAllFolder, reason);
+    }
   }
-}
-
-void readOutputs(const Typed& typed, Options& options) {
-  options.plots = typed.plots || typed.all;
-  if (!typed.out.empty()) {
-    requireWritableFolder("--out", typed.out);
-    options.out = typed.out;
-  } else if (typed.all) {
-    std::error_code ignored;
-    std::filesystem::create_directory(kAllFolder, ignored);
-    requireWritableFolder("--out", kAllFolder);
-    options.out = kAllFolder;
-  }
-  if (options.plots && options.out.empty()) failUsage("--plots", "", "needs --out");
-  if (!typed.cache.empty()) {
-    requireWritableFolder("--cache", typed.cache);
-    options.cache = typed.cache;
-  } else if (!options.out.empty()) {
-    options.cache = options.out / "references";
-  }
+  if (options.plots && options.out.empty()) throw render::UsageError("--plots requires --out");
+  if (options.cache.empty() && !options.out.empty()) options.cache = options.out / "references";
 }
 
 /// Small enough to end within a minute on one core, and a bit of everything.
-void applyQuick(Typed& typed) {
-  typed.scenes = "nave,stage";
-  typed.techniques = "exact,high,performance,fixed:16,fixed:64,half:16,half:64,froxels:64,epipolar-march:128,tree:128,"
-                     "pyramid,volumes:128,incremental:128";
-  typed.sizes = "160x90";
-  typed.shadowSizes = "256";
+void applyQuick(Request& request) {
+  request.scenes = {"nave", "stage"};
+  request.techniques =
+      techniquesOf({"exact", "high", "performance", "fixed:16", "fixed:64", "half:16", "half:64", "froxels:64",
+                    "epipolar-march:128", "tree:128", "pyramid", "volumes:128", "incremental:128"});
+  request.sizes = {{160, 90}};
+  request.shadowSizes = {256};
 }
 
-void applyAll(Typed& typed) {
-  typed.scenes = "nave,nave-glass,forest,terrain,cage,stage,projector"; // concert is stage, as the series of lights is
-  typed.techniques = "all";
-  typed.references = "map,scene";
-  typed.scaling = true;
-  typed.floors = true;
+void applyAll(Given& given, Options& options) {
+  // concert is stage, as the series of lights is
+  given.request.scenes = {"nave", "nave-glass", "forest", "terrain", "cage", "stage", "projector"};
+  given.request.techniques = techniquesOf(allTechniques());
+  given.references = {"map", "scene"};
+  given.scaling = true;
+  options.floors = true;
 }
 
-Options fromTyped(Typed typed) {
-  if (typed.quick && typed.all) failUsage("--quick", "", "cannot go with --all");
-  if (typed.quick) applyQuick(typed);
-  if (typed.all) applyAll(typed);
-  Options options;
-  Request request;
-  request.scenes = parseScenes(typed.scenes);
-  request.techniques = parseTechniques(typed.techniques);
-  request.sizes = parseSizes(typed.sizes);
-  request.shadowSizes = parseInts("--shadow-sizes", typed.shadowSizes, 16, tyndall::kMaxImageSize);
-  request.lights =
-      typed.lights.empty() ? std::vector<int>{0} : parseInts("--lights", typed.lights, 1, tyndall::kMaxLights);
-  request.densities = parseDensities(typed.densities);
-  if (typed.contexts.empty()) typed.contexts = host::nameOf(host::defaultContextKind());
-  request.contexts = parseContexts(typed.contexts);
-  options.setups = planCurves(request);
-  if (typed.scaling)
+void addLists(CLI::App& app, Given& given) {
+  using render::addList;
+  Request& request = given.request;
+  const auto intFrom = [](const char* option, int low, int high) {
+    return [=](const std::string& part) { return render::parseInt(option, part, low, high); };
+  };
+  addList(app, "--scenes", request.scenes, render::oneOf("--scenes", tests::sampleScenes()),
+          "sample scenes, or all (default nave)", tests::sampleScenes());
+  addList(app, "--techniques", request.techniques, techniqueOf, "see below, or all (default)",
+          techniquesOf(allTechniques()));
+  addList(
+      app, "--sizes", request.sizes, [](const std::string& part) { return render::parseSize("--sizes", part, 16); },
+      "of the image (default 1280x720)");
+  addList(app, "--shadow-sizes", request.shadowSizes, intFrom("--shadow-sizes", 16, tyndall::kMaxImageSize),
+          "texels per side (default 4096)");
+  addList(app, "--lights", request.lights, intFrom("--lights", 1, tyndall::kMaxLights),
+          "how many of the scene's lights, 1 to 16 (default: all)");
+  addList(app, "--densities", request.densities, parseDensity, "factors on the medium's density (default 1)");
+  addList(
+      app, "--contexts", request.contexts,
+      [](const std::string& name) { return render::parseContext("--contexts", name); },
+      "osmesa (default; egl where it is not installed), egl, glfw");
+  addList(app, "--references", given.references, render::oneOf("--references", {"map", "scene"}),
+          "judge against these as well as exact: map, scene");
+}
+
+void addOptions(CLI::App& app, Given& given, Options& options) {
+  addLists(app, given);
+  app.add_option("--runs", options.runs, "timed runs of each technique (default 5)")->check(CLI::Range(5, 1000));
+  const CLI::Validator isWritable([](const std::string& folder) { return reasonAgainst(folder); }, "");
+  app.add_option("--out", options.out, "a folder for bench.csv, bench.json and plots")
+      ->type_name("FOLDER")
+      ->check(CLI::ExistingDirectory)
+      ->check(isWritable);
+  app.add_option("--cache", options.cache, "a folder for slow references (default: references/ in --out)")
+      ->type_name("FOLDER")
+      ->check(CLI::ExistingDirectory)
+      ->check(isWritable);
+  app.add_flag("--floors", options.floors, "what each pass of ours would cost if it only read and wrote its bytes");
+  app.add_flag("--scaling", given.scaling, "the scaling series, too");
+  app.add_flag("--plots", options.plots, "draw them (needs python3 with matplotlib)");
+  auto* quick =
+      app.add_flag("--quick", given.quick, "small pictures of two scenes, within a minute; overrides the lists");
+  app.add_flag("--all", given.all, "the whole report: every scene but concert, reference and series, with plots")
+      ->excludes(quick);
+}
+
+Options complete(Given& given, Options options) {
+  if (given.quick) applyQuick(given.request);
+  if (given.all) applyAll(given, options);
+  options.setups = planCurves(given.request);
+  if (given.scaling)
     for (Setup& setup : planScaling())
       options.setups.push_back(std::move(setup));
-  options.runs = render::parseInt("--runs", typed.runs, kLeastRuns, kMostRuns);
-  options.floors = typed.floors;
-  readReferences(typed, options);
-  readOutputs(typed, options);
+  for (const std::string& name : given.references)
+    (name == "map" ? options.mapExact : options.sceneExact) = true;
+  readOutputs(given, options);
   return options;
-}
-
-void addOptions(CLI::App& app, Typed& typed) {
-  app.add_option("--scenes", typed.scenes, "sample scenes, or all (default nave)")->type_name("LIST");
-  app.add_option("--techniques", typed.techniques, "see below, or all (default)")->type_name("LIST");
-  app.add_option("--sizes", typed.sizes, "of the image (default 1280x720)")->type_name("LIST");
-  app.add_option("--shadow-sizes", typed.shadowSizes, "texels per side (default 4096)")->type_name("LIST");
-  app.add_option("--lights", typed.lights, "how many of the scene's lights, 1 to 16 (default: all)")->type_name("LIST");
-  app.add_option("--densities", typed.densities, "factors on the medium's density (default 1)")->type_name("LIST");
-  app.add_option("--contexts", typed.contexts, "osmesa (default; egl where it is not installed), egl, glfw")
-      ->type_name("LIST");
-  app.add_option("--references", typed.references, "judge against these as well as exact: map, scene")
-      ->type_name("LIST");
-  app.add_option("--runs", typed.runs, "timed runs of each technique, at least 5 (default 5)")->type_name("N");
-  app.add_option("--out", typed.out, "a folder for bench.csv, bench.json and plots")->type_name("FOLDER");
-  app.add_option("--cache", typed.cache, "a folder for slow references (default: references/ in --out)")
-      ->type_name("FOLDER");
-  app.add_flag("--floors", typed.floors, "what each pass of ours would cost if it only read and wrote its bytes");
-  app.add_flag("--scaling", typed.scaling, "the scaling series, too");
-  app.add_flag("--plots", typed.plots, "draw them (needs python3 with matplotlib)");
-  app.add_flag("--quick", typed.quick, "small pictures of two scenes, within a minute; overrides the lists");
-  app.add_flag("--all", typed.all, "the whole report: every scene but concert, reference and series, with plots");
 }
 
 } // namespace
 
 Options parseOptions(int argc, const char* const* argv) {
-  Typed typed;
-  typed.scenes = "nave";
-  typed.techniques = "all";
-  typed.sizes = "1280x720";
-  typed.shadowSizes = "4096";
-  typed.densities = "1";
-  typed.runs = "5";
+  Options options;
+  Given given;
+  given.request = {{"nave"}, techniquesOf(allTechniques()), {{1280, 720}}, {4096}, {0},
+                   {1},      {host::defaultContextKind()}};
   CLI::App app("Measures Tyndall's run time against its error, beside what people use today.", "tyndall-bench");
   app.footer("\nTechniques\n" + techniqueHelp() +
              "\nExit status\n  0: done; 1: a case failed, or Ctrl-C ended it early; 2: wrong usage.");
-  addOptions(app, typed);
+  addOptions(app, given, options);
   render::parseArguments(app, argc, argv);
-  return fromTyped(typed);
+  return complete(given, std::move(options));
 }
 
 } // namespace bench

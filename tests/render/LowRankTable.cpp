@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <render/CommandLine.h>
 #include <scene/FileIo.h>
 #include <scene/Tool.h>
 
@@ -46,7 +47,9 @@ void printRow(const std::string& scene) {
 } // namespace
 
 int main(int argc, char** argv) {
-  return host::runTool("tyndall-low-rank", [&] {
+  return render::runCommand("tyndall-low-rank", [&] {
+    const std::vector<std::string> scenes = tests::parseSceneNames(
+        "Prints how far technique lowrank is from tree, by the number of its terms.", argc, argv);
     host::print("| rRMSE against tree |");
     for (int terms = 1; terms <= kTerms; ++terms)
       host::print(fmt::format(" N = {} |", terms));
@@ -54,8 +57,7 @@ int main(int argc, char** argv) {
     for (int terms = 1; terms <= kTerms; ++terms)
       host::print("---|");
     host::print("\n");
-    const std::vector<std::string> named(argv + 1, argv + argc);
-    for (const std::string& scene : named.empty() ? tests::sampleScenes() : named)
+    for (const std::string& scene : scenes)
       printRow(scene);
     return 0;
   });

@@ -1,6 +1,7 @@
 #include "render/SceneAnswers.h"
 
 #include <gl/ReadBack.h>
+#include <render/OptionRules.h>
 #include <render/RenderFrame.h>
 
 namespace tests {
@@ -72,6 +73,14 @@ SceneAnswers renderScene(const render::Options& options) {
   answers.view = {frame.camera, frame.lights, frame.medium, options.width, options.height};
   answers.triangles = reference::trianglesOf(renderer.scene(), host::poseAt(renderer.scene(), 0));
   return answers;
+}
+
+std::vector<std::string> parseSceneNames(const std::string& description, int argc, const char* const* argv) {
+  std::vector<std::string> names = sampleScenes();
+  CLI::App app(description, std::filesystem::path(argv[0]).filename().string());
+  app.add_option("SCENE", names, "a scene of the build folder, by name; all if none is named");
+  render::parseArguments(app, argc, argv);
+  return names;
 }
 
 } // namespace tests

@@ -25,4 +25,7 @@ struct SceneAnswers {
 /// Renders frame 0.
 SceneAnswers renderScene(const render::Options& options);
 
+/// The scenes that a command line names, all if it names none. Throws as render::parseArguments() does.
+std::vector<std::string> parseSceneNames(const std::string& description, int argc, const char* const* argv);
+
 } // namespace tests

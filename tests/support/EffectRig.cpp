@@ -33,15 +33,16 @@ GLenum transferFormat(GLenum internalFormat) {
 
 } // namespace
 
+std::unique_ptr<tyndall::Effect> newEffect(tyndall::Config config) {
+  if (!config.loader) config.loader = testContext().loader();
+  tyndall::CreateResult created = tyndall::Effect::create(config);
+  INFO(created.status.message);
+  REQUIRE(created.effect);
+  return std::move(created.effect);
+}
+
 tyndall::Effect& testEffect() {
-  static std::unique_ptr<tyndall::Effect> effect;
-  host::Context& context = testContext();
-  if (!effect) {
-    tyndall::CreateResult result = tyndall::Effect::create({context.loader(), tyndall::PassTiming::Off});
-    INFO(result.status.message);
-    REQUIRE(result.effect);
-    effect = std::move(result.effect);
-  }
+  static const std::unique_ptr<tyndall::Effect> effect = newEffect();
   return *effect;
 }
 

@@ -9,6 +9,9 @@
 
 namespace tests {
 
+/// An effect of its own, for a test that requires it; without a loader in the configuration one of the test context.
+std::unique_ptr<tyndall::Effect> newEffect(tyndall::Config config = {});
+
 /// The effect of the test context, made when first asked for.
 tyndall::Effect& testEffect();
 

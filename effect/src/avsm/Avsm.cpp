@@ -3,6 +3,7 @@
 #include "ContextWatch.h"
 #include "LoadFunctions.h"
 #include "PassRecorder.h"
+#include "Rounding.h"
 #include "avsm/Curves.h"
 #include "avsm/Lists.h"
 #include "avsm/Particles.h"
@@ -347,7 +348,7 @@ void Avsm::State::run(const Pass& pass, const Uniforms& uniforms, int layers) {
   for (const auto& [uniform, value] : uniforms)
     gl.Uniform1i(gl.GetUniformLocation(program, uniform), value);
   recorder.run(pass.name, [&] {
-    const auto groups = static_cast<gl::Uint>((config.size + kGroup - 1) / kGroup);
+    const auto groups = static_cast<gl::Uint>(unitsFor(config.size, kGroup));
     gl.DispatchCompute(groups, groups, static_cast<gl::Uint>(layers > 0 ? layers : config.layers));
     gl.MemoryBarrier(kBarriers);
     return true;

@@ -51,13 +51,13 @@ void LightPlanner::makeSlices(const Limits& limits) {
 // Textures have room for the longest row that the map allows; drawn are as many texels as this frame's longest has.
 void LightPlanner::chooseRow(int longestRow) {
   const int step = frame.settings.rowStep;
-  const int texels = (std::max({mapSize_.width, mapSize_.height, 1}) + step - 1) / step;
+  const int texels = unitsFor(std::max({mapSize_.width, mapSize_.height, 1}), step);
   int top = 2;
   while ((texels >> (2 * (top + 1))) >= 4)
     ++top;
   const int unit = 1 << (2 * top);
-  extent.rowTexels = (texels + unit - 1) / unit * unit;
-  extent.drawnTexels = std::clamp((longestRow + unit - 1) / unit * unit, unit, extent.rowTexels);
+  extent.rowTexels = roundedUp(texels, unit);
+  extent.drawnTexels = std::clamp(roundedUp(longestRow, unit), unit, extent.rowTexels);
   extent.treeLevels = frame.settings.minMaxTree ? top : 0;
   block.rowLength = extent.drawnTexels;
   block.treeLevels = extent.treeLevels;
@@ -70,8 +70,8 @@ int LightPlanner::chooseViewsPerDraw(const Limits& limits) const {
   const int all = std::max(views(), 1);
   const std::int64_t most = std::min<std::int64_t>(kMostTexels / extent.rowTexels, limits.textureSize) / extent.slices;
   const int together = static_cast<int>(std::clamp<std::int64_t>(most, 1, all));
-  const int parts = (all + together - 1) / together;
-  return (all + parts - 1) / parts;
+  const int parts = unitsFor(all, together);
+  return unitsFor(all, parts);
 }
 
 void LightPlanner::selectDraw(int draw) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "CheckFrame.h"
+#include "Rounding.h"
 #include "SharedBlocks.h"
 #include "optics/Slices.h"
 #include "plan/PassPlanner.h"
@@ -40,9 +41,9 @@ public:
   int views() const { return shadowViews_; }
   /// Draws that march it: as few as row textures of bounded size allow, and at least one, which brings the light that
   /// is outside all views.
-  int draws() const { return views() > 0 ? (views() + viewsPerDraw - 1) / viewsPerDraw : 1; }
+  int draws() const { return views() > 0 ? unitsFor(views(), viewsPerDraw) : 1; }
   void selectDraw(int draw);
-  int segments() const { return extent.slices * extent.samples / 16; }
+  int segments() const { return extent.slices * extent.samples / kSegmentSamples; }
 
   const Frame frame;
   const Light& light;

@@ -1,5 +1,7 @@
 #include "plan/PassPlanner.h"
 
+#include "Rounding.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -180,7 +182,7 @@ void PassPlanner::addVertices(Shape shape, bool changes, Draw& draw) const {
   const auto strips = [&](int lines) {
     const int each = changes ? kChangedLines : kStripLines;
     draw.vertices = 6;
-    draw.instances = (lines + each - 1) / each;
+    draw.instances = unitsFor(lines, each);
   };
   if (shape == Shape::Samples) {
     draw.vertices = 3 * extent.slices * extent.samples;

@@ -1,5 +1,7 @@
 #include "plan/Resources.h"
 
+#include "Rounding.h"
+
 #include <algorithm>
 #include <cctype>
 
@@ -13,7 +15,7 @@ using Format = TexelFormat;
 constexpr Format kGiven{}, kR32{gl::R32F, gl::RED, 4}, kRg32{gl::RG32F, gl::RG, 8}, kRgba32{gl::RGBA32F, gl::RGBA, 16},
     kRgba16{gl::RGBA16F, gl::RGBA, 8}, kUnorm2{gl::RG16, gl::RG, 4}, kUnorm4{gl::RGBA16, gl::RGBA, 8};
 
-constexpr int kPartTexels = 256, kSegment = 16, kChunk = 64;
+constexpr int kPartTexels = 256, kChunk = 64;
 
 bool always(E) { return true; }
 bool coloured(E e) { return e.coloured; }
@@ -45,8 +47,8 @@ Size table(E e) { return {e.slices, e.tableRows}; }
 Size samples(E e) { return {e.slices, e.samples}; }
 Size chunks(E e) { return {e.slices, e.samples / kChunk}; }
 Size chunksAndSum(E e) { return {e.slices, e.samples / kChunk + 1}; }
-Size segments(E e) { return {e.slices, e.samples / kSegment}; }
-Size segmentEnds(E e) { return {e.slices, e.samples / kSegment + 1}; }
+Size segments(E e) { return {e.slices, e.samples / kSegmentSamples}; }
+Size segmentEnds(E e) { return {e.slices, e.samples / kSegmentSamples + 1}; }
 Size fours(E e) { return {e.slices, e.samples / 4}; }
 Size slices(E e) { return {e.slices, 1}; }
 Size one(E) { return {1, 1}; }
@@ -63,15 +65,15 @@ Size cells(E e) { return {e.curveCells, e.rowRoom}; }
 Size drawnCells(E e) { return {e.curveCells, e.rows}; }
 Size cellTree(E e) { return {curveNodes(e.curveCells), e.rowRoom}; }
 Size drawnCellTree(E e) { return {curveNodes(e.curveCells), e.rows}; }
-Size parts(E e) { return {(e.rowTexels + kPartTexels - 1) / kPartTexels, e.rowRoom}; }
-Size drawnParts(E e) { return {(e.rowTexels + kPartTexels - 1) / kPartTexels, e.rows}; }
+Size parts(E e) { return {unitsFor(e.rowTexels, kPartTexels), e.rowRoom}; }
+Size drawnParts(E e) { return {unitsFor(e.rowTexels, kPartTexels), e.rows}; }
 
 Size lowRankRays(E e) { return {64, e.terms}; }
 Size lowRankLights(E e) { return {e.lowRankSets, 2 * e.terms * 64}; }
-Size tints(E e) { return {e.rowTexels >> (2 * e.tintLevel + 2), (e.terms + 3) / 4 * e.rowRoom}; }
-Size drawnTints(E e) { return {e.drawnTexels >> (2 * e.tintLevel + 2), (e.terms + 3) / 4 * e.rowRoom}; }
+Size tints(E e) { return {e.rowTexels >> (2 * e.tintLevel + 2), unitsFor(e.terms, 4) * e.rowRoom}; }
+Size drawnTints(E e) { return {e.drawnTexels >> (2 * e.tintLevel + 2), unitsFor(e.terms, 4) * e.rowRoom}; }
 
-Size tiles(E e) { return {kTilesAcross, (tilesOf(e) + kTilesAcross - 1) / kTilesAcross}; }
+Size tiles(E e) { return {kTilesAcross, unitsFor(tilesOf(e), kTilesAcross)}; }
 
 // In the order of the enumerators.
 constexpr ResourceRow kRows[] = {
@@ -170,7 +172,7 @@ static_assert(sizeof kRows / sizeof *kRows == static_cast<std::size_t>(Resource:
 
 } // namespace
 
-int tilesOf(const Extent& e) { return ((e.width + kTile - 1) / kTile) * ((e.height + kTile - 1) / kTile); }
+int tilesOf(const Extent& e) { return unitsFor(e.width, kTile) * unitsFor(e.height, kTile); }
 
 const ResourceRow& rowOf(Resource resource) { return kRows[static_cast<std::size_t>(resource)]; }
 

@@ -123,6 +123,9 @@ struct ResourceRow {
 
 const ResourceRow& rowOf(Resource resource);
 
+/// Samples of a slice that are refined, and with reuse drawn anew, together.
+inline constexpr int kSegmentSamples = 16;
+
 /// Squares of kTile x kTile pixels of an image, whose flags stand one after the other in lines of kTilesAcross.
 inline constexpr int kTile = 16, kTilesAcross = 256;
 int tilesOf(const Extent& extent);

@@ -40,7 +40,7 @@ void findMoved(LightPlanner& light, const blocks::LightBlock& block) {
     std::fill(begin, end, std::find(begin, end, true) != end);
   }
   std::vector<glm::vec4> texels(moved.size(), glm::vec4(0));
-  const int segments = light.extent.samples / 16;
+  const int segments = light.extent.samples / kSegmentSamples;
   std::transform(moved.begin(), moved.end(), texels.begin(),
                  [&](bool m) { return m ? glm::vec4(0, segments, 1, 1) : glm::vec4(0); });
   light.upload(R::MovedSlices, std::move(texels));

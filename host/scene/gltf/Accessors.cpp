@@ -27,15 +27,15 @@ float toFloat(const std::uint8_t* bytes, bool normalized) {
 
 float readComponent(const std::uint8_t* bytes, int type, bool normalized) {
   switch (type) {
-  case TINYGLTF_COMPONENT_TYPE_BYTE:
+  case kByte:
     return toFloat<std::int8_t>(bytes, normalized);
-  case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+  case kUnsignedByte:
     return toFloat<std::uint8_t>(bytes, normalized);
-  case TINYGLTF_COMPONENT_TYPE_SHORT:
+  case kShort:
     return toFloat<std::int16_t>(bytes, normalized);
-  case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+  case kUnsignedShort:
     return toFloat<std::uint16_t>(bytes, normalized);
-  case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+  case kUnsignedInt:
     return toFloat<std::uint32_t>(bytes, false);
   default:
     return toFloat<float>(bytes, false);
@@ -44,47 +44,54 @@ float readComponent(const std::uint8_t* bytes, int type, bool normalized) {
 
 std::uint32_t readIndex(const std::uint8_t* bytes, int type) {
   switch (type) {
-  case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+  case kUnsignedByte:
     return *bytes;
-  case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+  case kUnsignedShort:
     return load<std::uint16_t>(bytes);
   default:
     return load<std::uint32_t>(bytes);
   }
 }
 
-/// Where the elements of a buffer view begin. check() has seen to the range inside the buffer.
-const std::uint8_t* viewData(const Document& document, int view, const std::string& where) {
-  const tinygltf::BufferView& bufferView = document.model.bufferViews[static_cast<std::size_t>(view)];
-  const Bytes& buffer = document.buffers[static_cast<std::size_t>(bufferView.buffer)];
-  if (buffer.data == nullptr) {
-    document.refuse(where, "buffers[" + std::to_string(bufferView.buffer) + "] has no data: no uri, no BIN chunk");
-  }
-  return buffer.data + bufferView.byteOffset;
+/// Where the elements begin that an accessor, or a part of a sparse one, names. check() has seen to the range inside
+/// the buffer.
+const std::uint8_t* dataOf(const Document& document, const nlohmann::json& owner, const std::string& where) {
+  const nlohmann::json& view = document.element("bufferViews", owner["bufferView"].get<std::size_t>());
+  const auto index = view["buffer"].get<std::size_t>();
+  const Bytes& buffer = document.buffers[index];
+  if (buffer.data == nullptr) document.refuse(where, at("buffers", index) + " has no data: no uri, no BIN chunk");
+  return buffer.data + view.value("byteOffset", std::size_t{0}) + owner.value("byteOffset", std::size_t{0});
+}
+
+std::size_t strideOf(const Document& document, const nlohmann::json& accessor) {
+  if (!accessor.contains("bufferView")) return 0;
+  return document.element("bufferViews", accessor["bufferView"].get<std::size_t>()).value("byteStride", std::size_t{0});
 }
 
 /// Calls write(element, bytes) for each element that the accessor stores, then for those that it replaces.
 template <typename Write>
 void forEachElement(const Document& document, int index, std::size_t size, Write write) {
-  const tinygltf::Accessor& accessor = document.model.accessors[static_cast<std::size_t>(index)];
+  const nlohmann::json& accessor = document.element("accessors", index);
   const std::string where = at("accessors", static_cast<std::size_t>(index));
-  if (accessor.bufferView >= 0) {
-    const std::size_t stride = document.model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
-    const std::uint8_t* bytes = viewData(document, accessor.bufferView, where) + accessor.byteOffset;
-    for (std::size_t i = 0; i < accessor.count; ++i) {
+  const auto count = accessor["count"].get<std::size_t>();
+  if (accessor.contains("bufferView")) {
+    const std::size_t stride = strideOf(document, accessor);
+    const std::uint8_t* bytes = dataOf(document, accessor, where);
+    for (std::size_t i = 0; i < count; ++i) {
       write(i, bytes + i * (stride == 0 ? size : stride));
     }
   }
-  if (!accessor.sparse.isSparse) return;
-  const auto& indices = accessor.sparse.indices;
-  const auto& values = accessor.sparse.values;
-  const std::uint8_t* indexBytes =
-      viewData(document, indices.bufferView, where + ".sparse.indices") + indices.byteOffset;
-  const std::uint8_t* valueBytes = viewData(document, values.bufferView, where + ".sparse.values") + values.byteOffset;
-  const auto indexSize = static_cast<std::size_t>(componentSize(indices.componentType));
-  for (std::size_t i = 0; i < static_cast<std::size_t>(accessor.sparse.count); ++i) {
-    const std::uint32_t element = readIndex(indexBytes + i * indexSize, indices.componentType);
-    if (element >= accessor.count) {
+  const auto sparse = accessor.find("sparse");
+  if (sparse == accessor.end()) return;
+  const nlohmann::json& indices = (*sparse)["indices"];
+  const std::uint8_t* indexBytes = dataOf(document, indices, where + ".sparse.indices");
+  const std::uint8_t* valueBytes = dataOf(document, (*sparse)["values"], where + ".sparse.values");
+  const int indexType = indices["componentType"].get<int>();
+  const auto indexSize = static_cast<std::size_t>(componentSize(indexType));
+  const auto replaced = (*sparse)["count"].get<std::size_t>();
+  for (std::size_t i = 0; i < replaced; ++i) {
+    const std::uint32_t element = readIndex(indexBytes + i * indexSize, indexType);
+    if (element >= count) {
       document.refuse(where + ".sparse.indices",
                       "element " + std::to_string(element) + " is beyond the accessor's count");
     }
@@ -94,24 +101,22 @@ void forEachElement(const Document& document, int index, std::size_t size, Write
 
 } // namespace
 
-int componentCount(const tinygltf::Accessor& accessor) {
-  switch (accessor.type) {
-  case TINYGLTF_TYPE_SCALAR:
-    return 1;
-  case TINYGLTF_TYPE_VEC2:
-    return 2;
-  case TINYGLTF_TYPE_VEC3:
-    return 3;
-  case TINYGLTF_TYPE_VEC4:
-    return 4;
-  default:
-    return 0;
-  }
+Accessor accessorAt(const Document& document, int index) {
+  const nlohmann::json& json = document.element("accessors", index);
+  const auto type = json["type"].get<std::string_view>();
+  Accessor accessor;
+  if (type == "SCALAR") accessor.components = 1;
+  if (type.substr(0, 3) == "VEC") accessor.components = type.back() - '0';
+  accessor.componentType = json["componentType"].get<int>();
+  accessor.normalized = json.value("normalized", false);
+  accessor.strided = strideOf(document, json) != 0;
+  accessor.count = json["count"].get<std::size_t>();
+  return accessor;
 }
 
 std::vector<float> readFloats(Document& document, int accessor) {
-  const tinygltf::Accessor& source = document.model.accessors[static_cast<std::size_t>(accessor)];
-  const auto components = static_cast<std::size_t>(componentCount(source));
+  const Accessor source = accessorAt(document, accessor);
+  const auto components = static_cast<std::size_t>(source.components);
   const auto size = static_cast<std::size_t>(componentSize(source.componentType));
   document.spend(source.count * components * sizeof(float), at("accessors", static_cast<std::size_t>(accessor)));
   std::vector<float> values(source.count * components, 0.0F);
@@ -124,7 +129,7 @@ std::vector<float> readFloats(Document& document, int accessor) {
 }
 
 std::vector<std::uint32_t> readIndices(Document& document, int accessor) {
-  const tinygltf::Accessor& source = document.model.accessors[static_cast<std::size_t>(accessor)];
+  const Accessor source = accessorAt(document, accessor);
   const auto size = static_cast<std::size_t>(componentSize(source.componentType));
   document.spend(source.count * sizeof(std::uint32_t), at("accessors", static_cast<std::size_t>(accessor)));
   std::vector<std::uint32_t> values(source.count, 0);

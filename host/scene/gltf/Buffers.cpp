@@ -14,6 +14,33 @@ int hexDigit(char c) {
   return -1;
 }
 
+int base64Digit(char c) {
+  if (c >= 'A' && c <= 'Z') return c - 'A';
+  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+  if (c >= '0' && c <= '9') return c - '0' + 52;
+  return c == '+' ? 62 : c == '/' ? 63 : -1;
+}
+
+/// Padding at the end may be missing.
+std::vector<std::uint8_t> base64Decoded(std::string_view text) {
+  text = text.substr(0, text.find_last_not_of('=') + 1);
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(text.size() / 4 * 3 + 2);
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    const int digit = base64Digit(c);
+    if (digit < 0) throw Error("the data URI holds a character that base64 does not have");
+    bits = bits << 6 | static_cast<std::uint32_t>(digit);
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    bytes.push_back(static_cast<std::uint8_t>(bits >> count));
+  }
+  if (bytes.empty()) throw Error("the data URI holds no base64 data");
+  return bytes;
+}
+
 std::string percentDecoded(const std::string& uri) {
   std::string text;
   for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -45,12 +72,13 @@ std::filesystem::path relativePath(const std::string& uri) {
   return path;
 }
 
-std::vector<std::uint8_t> loadDataUri(const std::string& uri) {
-  std::vector<std::uint8_t> bytes;
-  std::string mimeType;
-  if (!tinygltf::IsDataURI(uri)) throw Error("a data URI must be base64 of a buffer or an image");
-  if (!tinygltf::DecodeDataURI(&bytes, mimeType, uri, 0, false)) throw Error("the data URI holds no base64 data");
-  return bytes;
+std::vector<std::uint8_t> loadDataUri(std::string_view uri) {
+  for (const char* type : {"application/octet-stream", "application/gltf-buffer", "image/png", "image/jpeg",
+                           "image/gif", "image/bmp", "text/plain"}) {
+    const std::string head = std::string("data:") + type + ";base64,";
+    if (uri.substr(0, head.size()) == head) return base64Decoded(uri.substr(head.size()));
+  }
+  throw Error("a data URI must be base64 of a buffer or an image");
 }
 
 void loadBuffer(Document& document, std::size_t index) {

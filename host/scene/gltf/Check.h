@@ -1,4 +1,4 @@
-// The structure of a glTF document, checked on the JSON before tinygltf and the converters rely on it: types, required
+// The structure of a glTF document, checked before the converters rely on it: types, required
 // members, indices, and the ranges of buffer views and accessors. Values (camera angles, vertex data) are checked by
 // those who convert them.
 #pragma once

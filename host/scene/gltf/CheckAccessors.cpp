@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::int64_t kMaxCount = std::int64_t{1} << 32; // elements; times the largest stride still fits 64 bits
 constexpr std::int64_t kMaxOffset = kMaxFileBytes;
+constexpr int kElementArrayBuffer = 34963; // GL's
 
 struct View {
   std::int64_t length = 0;
@@ -34,7 +35,7 @@ void checkBufferView(Fields view) {
   const std::optional<std::int64_t> stride = view.integer("byteStride", 4, 252);
   if (stride && *stride % 4 != 0) view.refuse("byteStride", "must be a multiple of 4");
   const std::optional<std::int64_t> target = view.integer("target", 0, std::numeric_limits<std::int32_t>::max());
-  if (stride && target && *target == TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER) {
+  if (stride && target && *target == kElementArrayBuffer) {
     view.refuse("byteStride", "must not be given for an index buffer");
   }
 }

@@ -69,12 +69,6 @@ void checkLights(Fields& root) {
   lights.each("lights", Need::Required, checkLight);
 }
 
-std::size_t lightCount(const Document& document) {
-  const auto extensions = document.json.find("extensions");
-  if (extensions == document.json.end() || !extensions->contains(kLights)) return 0;
-  return (*extensions)[kLights]["lights"].size();
-}
-
 void checkNode(Fields node) {
   Document& document = node.document();
   node.index("mesh", "meshes");
@@ -91,7 +85,7 @@ void checkNode(Fields node) {
   nlohmann::json* extensions = node.object("extensions");
   if (extensions == nullptr || !extensions->contains(kLights)) return;
   Fields light(document, (*extensions)[kLights], node.path("extensions.KHR_lights_punctual"));
-  const auto count = static_cast<std::int64_t>(lightCount(document));
+  const auto count = static_cast<std::int64_t>(document.lightCount());
   if (count == 0) light.refuse("light", "the file has no lights");
   light.integer("light", 0, count - 1, Need::Required);
 }
@@ -111,8 +105,7 @@ void checkAnimation(Fields animation) {
     channel.integer("sampler", 0, samplers - 1, Need::Required);
     Fields target(document, *channel.object("target", Need::Required), channel.path("target"));
     target.string("path", Need::Required);
-    // tinygltf drops a channel without a node: -1 keeps it, so that indices stay those of the file.
-    if (!target.index("node", "nodes")) target.value()["node"] = -1;
+    target.index("node", "nodes");
   });
 }
 

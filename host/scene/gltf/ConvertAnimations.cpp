@@ -23,18 +23,16 @@ Interpolation interpolationOf(const std::string& name) {
   return name == "CUBICSPLINE" ? Interpolation::CubicSpline : Interpolation::Linear;
 }
 
-void refuseStride(const Document& document, int accessor, const std::string& where) {
-  const int view = document.model.accessors[static_cast<std::size_t>(accessor)].bufferView;
-  if (view < 0 || document.model.bufferViews[static_cast<std::size_t>(view)].byteStride == 0) return;
-  document.refuse(where, "the buffer view of an animation must not have a byteStride");
+void refuseStride(const Document& document, const Accessor& accessor, const std::string& where) {
+  if (accessor.strided) document.refuse(where, "the buffer view of an animation must not have a byteStride");
 }
 
 std::vector<float> readTimes(Document& document, int accessor, const std::string& where) {
-  const tinygltf::Accessor& source = document.model.accessors[static_cast<std::size_t>(accessor)];
-  if (componentCount(source) != 1 || source.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
+  const Accessor source = accessorAt(document, accessor);
+  if (source.components != 1 || source.componentType != kFloat) {
     document.refuse(where, "accessors[" + std::to_string(accessor) + "] must be SCALAR of floats");
   }
-  refuseStride(document, accessor, where);
+  refuseStride(document, source, where);
   std::vector<float> times = readFloats(document, accessor);
   for (std::size_t i = 0; i < times.size(); ++i) {
     const bool increasing = i == 0 ? times[i] >= 0 : times[i] > times[i - 1];
@@ -46,19 +44,19 @@ std::vector<float> readTimes(Document& document, int accessor, const std::string
 }
 
 /// Whether an output accessor has the type that the path needs; rotations may be normalised integers.
-bool isAllowedOutput(AnimationPath path, const tinygltf::Accessor& accessor) {
-  const bool isFloat = accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+bool isAllowedOutput(AnimationPath path, const Accessor& accessor) {
+  const bool isFloat = accessor.componentType == kFloat;
   const bool isRotation = path == AnimationPath::Rotation;
   const bool isInteger = isRotation && accessor.normalized && componentSize(accessor.componentType) < 4;
-  return componentCount(accessor) == (isRotation ? 4 : 3) && (isFloat || isInteger);
+  return accessor.components == (isRotation ? 4 : 3) && (isFloat || isInteger);
 }
 
 std::vector<glm::vec4> readValues(Document& document, int accessor, AnimationPath path, const std::string& where) {
-  const tinygltf::Accessor& source = document.model.accessors[static_cast<std::size_t>(accessor)];
+  const Accessor source = accessorAt(document, accessor);
   if (!isAllowedOutput(path, source)) {
     document.refuse(where, "accessors[" + std::to_string(accessor) + "] must have a type that its path allows");
   }
-  refuseStride(document, accessor, where);
+  refuseStride(document, source, where);
   const std::vector<float> floats = readFloats(document, accessor);
   const std::size_t components = path == AnimationPath::Rotation ? 4 : 3;
   document.spend(source.count * sizeof(glm::vec4), where);
@@ -79,13 +77,13 @@ void checkRotations(const Document& document, const AnimationChannel& channel, c
   }
 }
 
-AnimationChannel readChannel(Document& document, const tinygltf::AnimationSampler& sampler, AnimationPath path,
+AnimationChannel readChannel(Document& document, const nlohmann::json& sampler, AnimationPath path,
                              const std::string& where) {
   AnimationChannel channel;
   channel.path = path;
-  channel.interpolation = interpolationOf(sampler.interpolation);
-  channel.times = readTimes(document, sampler.input, where + ".input");
-  channel.values = readValues(document, sampler.output, path, where + ".output");
+  channel.interpolation = interpolationOf(sampler.value("interpolation", "LINEAR"));
+  channel.times = readTimes(document, sampler["input"].get<int>(), where + ".input");
+  channel.values = readValues(document, sampler["output"].get<int>(), path, where + ".output");
   const bool isCubic = channel.interpolation == Interpolation::CubicSpline;
   const std::size_t expected = channel.times.size() * (isCubic ? 3 : 1);
   if (isCubic && channel.times.size() < 2) document.refuse(where + ".input", "CUBICSPLINE needs two keys or more");
@@ -100,28 +98,30 @@ AnimationChannel readChannel(Document& document, const tinygltf::AnimationSample
 } // namespace
 
 void convertAnimations(Document& document, const std::vector<int>& sceneNodes, Scene& scene) {
-  std::set<std::pair<int, AnimationPath>> animated;
-  for (std::size_t a = 0; a < document.model.animations.size(); ++a) {
-    const tinygltf::Animation& animation = document.model.animations[a];
-    std::set<std::pair<int, AnimationPath>> ofThis;
-    for (std::size_t c = 0; c < animation.channels.size(); ++c) {
-      const tinygltf::AnimationChannel& source = animation.channels[c];
+  std::set<std::pair<std::size_t, AnimationPath>> animated;
+  for (std::size_t a = 0; a < document.count("animations"); ++a) {
+    const nlohmann::json& animation = document.element("animations", a);
+    std::set<std::pair<std::size_t, AnimationPath>> ofThis;
+    for (std::size_t c = 0; c < animation["channels"].size(); ++c) {
+      const nlohmann::json& source = animation["channels"][c];
+      const nlohmann::json& target = source["target"];
       const std::string where = at(at("animations", a, "channels"), c) + ".target";
-      const std::optional<AnimationPath> path = pathOf(source.target_path);
-      if (!path) document.note(where + ".path", "\"" + source.target_path + "\" is not animated");
-      if (!path || source.target_node < 0) continue;
-      const std::string sampler = at(at("animations", a, "samplers"), static_cast<std::size_t>(source.sampler));
+      const auto& pathName = target["path"].get_ref<const std::string&>();
+      const std::optional<AnimationPath> path = pathOf(pathName);
+      if (!path) document.note(where + ".path", "\"" + pathName + "\" is not animated");
+      if (!path || !target.contains("node")) continue;
+      const auto sampler = source["sampler"].get<std::size_t>();
       AnimationChannel channel =
-          readChannel(document, animation.samplers[static_cast<std::size_t>(source.sampler)], *path, sampler);
-      const auto target = static_cast<std::size_t>(source.target_node);
-      if (!document.model.nodes[target].matrix.empty())
+          readChannel(document, animation["samplers"][sampler], *path, at(at("animations", a, "samplers"), sampler));
+      const auto node = target["node"].get<std::size_t>();
+      if (document.element("nodes", node).contains("matrix"))
         document.refuse(where, "a node with a matrix must not be animated");
-      if (!ofThis.emplace(source.target_node, *path).second) {
+      if (!ofThis.emplace(node, *path).second) {
         document.refuse(where, "the animation already has a channel for this node and path");
       }
-      channel.node = sceneNodes[target];
+      channel.node = sceneNodes[node];
       if (channel.node < 0) continue;
-      if (!animated.emplace(source.target_node, *path).second) {
+      if (!animated.emplace(node, *path).second) {
         document.note(where, "another animation moves the same; the later one wins");
       }
       scene.animation.push_back(std::move(channel));

@@ -2,6 +2,7 @@
 #include "Textures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace host::gltf {
@@ -22,22 +23,22 @@ public:
 
   TextureCoordinates convert(std::size_t index) {
     where_ = at("materials", index);
-    const tinygltf::Material& source = document_.model.materials[index];
-    const nlohmann::json& json = document_.json["materials"][index];
+    const nlohmann::json& json = document_.element("materials", index);
+    const nlohmann::json pbr = json.value("pbrMetallicRoughness", nlohmann::json::object());
     Material material;
-    material.name = source.name;
-    const std::vector<double>& factor = source.pbrMetallicRoughness.baseColorFactor;
+    material.name = nameOf(json);
+    const auto factor = pbr.value("baseColorFactor", std::array<double, 4>{1, 1, 1, 1});
     for (int c = 0; c < 4; ++c) {
       material.baseColour[c] = clamped(factor[static_cast<std::size_t>(c)], 1, "pbrMetallicRoughness.baseColorFactor");
     }
-    material.alphaMode = alphaMode(source.alphaMode);
-    material.alphaCutoff = clamped(source.alphaCutoff, kLargest, "alphaCutoff");
+    material.alphaMode = alphaMode(json.value("alphaMode", "OPAQUE"));
+    material.alphaCutoff = clamped(json.value("alphaCutoff", 0.5), kLargest, "alphaCutoff");
     if (const nlohmann::json* transmission = extension(json, "KHR_materials_transmission")) {
       material.transmission = clamped(transmission->value("transmissionFactor", 0.0), 1, "transmissionFactor");
     }
     material.unlit = extension(json, "KHR_materials_unlit") != nullptr;
-    material.emission = emission(source, json);
-    const TextureCoordinates coordinates = baseColourTexture(source, json, material);
+    material.emission = emission(json);
+    const TextureCoordinates coordinates = baseColourTexture(pbr, material);
     scene_.materials.push_back(std::move(material));
     return coordinates;
   }
@@ -57,12 +58,13 @@ private:
     return AlphaMode::Opaque;
   }
 
-  glm::vec3 emission(const tinygltf::Material& source, const nlohmann::json& json) {
+  glm::vec3 emission(const nlohmann::json& json) {
     const nlohmann::json* extended = extension(json, "KHR_materials_emissive_strength");
     const double strength = extended == nullptr ? 1.0 : extended->value("emissiveStrength", 1.0);
+    const auto factors = json.value("emissiveFactor", std::array<double, 3>{});
     glm::vec3 emission(0);
-    for (int c = 0; c < 3 && source.emissiveFactor.size() == 3; ++c) {
-      const float factor = clamped(source.emissiveFactor[static_cast<std::size_t>(c)], 1, "emissiveFactor");
+    for (int c = 0; c < 3; ++c) {
+      const float factor = clamped(factors[static_cast<std::size_t>(c)], 1, "emissiveFactor");
       emission[c] = factor * clamped(strength, kLargest, "emissiveStrength");
     }
     if (emission == glm::vec3(0) || !json.contains("emissiveTexture")) return emission;
@@ -70,16 +72,14 @@ private:
     return glm::vec3(0);
   }
 
-  TextureCoordinates baseColourTexture(const tinygltf::Material& source, const nlohmann::json& json,
-                                       Material& material) {
+  TextureCoordinates baseColourTexture(const nlohmann::json& pbr, Material& material) {
     TextureCoordinates coordinates;
-    const tinygltf::TextureInfo& info = source.pbrMetallicRoughness.baseColorTexture;
-    if (info.index < 0) return coordinates;
-    material.texture = textures_.load(info.index);
+    const auto info = pbr.find("baseColorTexture");
+    if (info == pbr.end()) return coordinates;
+    material.texture = textures_.load((*info)["index"].get<int>());
     coordinates.needed = material.texture >= 0;
-    coordinates.texCoord = info.texCoord;
-    const nlohmann::json& textureJson = json["pbrMetallicRoughness"]["baseColorTexture"];
-    if (const nlohmann::json* transform = extension(textureJson, "KHR_texture_transform")) {
+    coordinates.texCoord = info->value("texCoord", 0);
+    if (const nlohmann::json* transform = extension(*info, "KHR_texture_transform")) {
       applyTransform(*transform, coordinates);
     }
     return coordinates;
@@ -108,7 +108,7 @@ private:
 std::vector<TextureCoordinates> convertMaterials(Document& document, Scene& scene) {
   MaterialConverter converter(document, scene);
   std::vector<TextureCoordinates> coordinates;
-  for (std::size_t i = 0; i < document.model.materials.size(); ++i) {
+  for (std::size_t i = 0; i < document.count("materials"); ++i) {
     coordinates.push_back(converter.convert(i));
   }
   scene.materials.emplace_back();

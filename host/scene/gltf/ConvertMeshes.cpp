@@ -11,11 +11,11 @@ namespace host::gltf {
 namespace {
 
 /// The formats that an attribute may have: glTF 2.0 section 3.7.2.1, and with KHR_mesh_quantization its table.
-bool isAllowedFormat(std::string_view attribute, const tinygltf::Accessor& accessor, bool quantized) {
-  const int components = componentCount(accessor);
+bool isAllowedFormat(std::string_view attribute, const Accessor& accessor, bool quantized) {
+  const int components = accessor.components;
   const int type = accessor.componentType;
-  const bool isFloat = type == TINYGLTF_COMPONENT_TYPE_FLOAT;
-  const bool isSigned = type == TINYGLTF_COMPONENT_TYPE_BYTE || type == TINYGLTF_COMPONENT_TYPE_SHORT;
+  const bool isFloat = type == kFloat;
+  const bool isSigned = type == kByte || type == kShort;
   const bool isShort = componentSize(type) < 4;
   if (attribute == "POSITION") return components == 3 && (isFloat || (quantized && isShort));
   if (attribute == "NORMAL") return components == 3 && (isFloat || (quantized && isSigned && accessor.normalized));
@@ -25,21 +25,21 @@ bool isAllowedFormat(std::string_view attribute, const tinygltf::Accessor& acces
 
 /// The index that GL would take for a primitive restart.
 std::uint32_t restartIndex(int type) {
-  if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return 0xff;
-  return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? 0xffff : 0xffffffff;
+  if (type == kUnsignedByte) return 0xff;
+  return type == kUnsignedShort ? 0xffff : 0xffffffff;
 }
 
 class MeshReader {
 public:
-  MeshReader(Document& document, const tinygltf::Primitive& primitive, int indices, std::string where)
-      : document_(document), source_(primitive), indices_(indices), where_(std::move(where)) {}
+  MeshReader(Document& document, const nlohmann::json& primitive, std::string where)
+      : document_(document), attributes_(primitive["attributes"]), indices_(primitive.value("indices", -1)),
+        where_(std::move(where)) {}
 
-  bool has(const std::string& attribute) const { return source_.attributes.count(attribute) > 0; }
+  bool has(const std::string& attribute) const { return attributes_.contains(attribute); }
 
   std::vector<float> attribute(const std::string& name) {
-    const int index = source_.attributes.at(name);
-    const tinygltf::Accessor& accessor = document_.model.accessors[static_cast<std::size_t>(index)];
-    if (!isAllowedFormat(name, accessor, document_.uses("KHR_mesh_quantization"))) {
+    const int index = attributes_[name].get<int>();
+    if (!isAllowedFormat(name, accessorAt(document_, index), document_.uses("KHR_mesh_quantization"))) {
       document_.refuse(where_ + ".attributes." + name,
                        "accessors[" + std::to_string(index) + "] must have a type and component type that glTF allows");
     }
@@ -72,15 +72,12 @@ public:
       }
       return sequence;
     }
-    const tinygltf::Accessor& accessor = document_.model.accessors[static_cast<std::size_t>(indices_)];
+    const Accessor accessor = accessorAt(document_, indices_);
     const std::string where = where_ + ".indices";
-    if (componentCount(accessor) != 1 || !isIndexType(accessor.componentType)) {
+    if (accessor.components != 1 || !isIndexType(accessor.componentType)) {
       document_.refuse(where, "accessors[" + std::to_string(indices_) + "] must be SCALAR of 5121, 5123 or 5125");
     }
-    if (accessor.bufferView >= 0 &&
-        document_.model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride != 0) {
-      document_.refuse(where, "the buffer view of indices must not have a byteStride");
-    }
+    if (accessor.strided) document_.refuse(where, "the buffer view of indices must not have a byteStride");
     std::vector<std::uint32_t> result = readIndices(document_, indices_);
     const std::uint32_t restart = restartIndex(accessor.componentType);
     for (std::size_t i = 0; i < result.size(); ++i) {
@@ -124,29 +121,24 @@ private:
   }
 
   Document& document_;
-  const tinygltf::Primitive& source_;
+  const nlohmann::json& attributes_;
   int indices_; // accessor, or -1
   std::string where_;
 };
 
-void noteIgnoredAttributes(Document& document, const tinygltf::Primitive& primitive, const std::string& where) {
-  if (primitive.attributes.count("COLOR_0") > 0)
-    document.note(where + ".attributes.COLOR_0", "vertex colours are ignored");
-}
-
 /// Returns false for a primitive that draws nothing.
-bool convertPrimitive(Document& document, const tinygltf::Primitive& source, int indexAccessor,
-                      const std::string& where, const TextureCoordinates& coordinates, Primitive& result) {
-  MeshReader reader(document, source, indexAccessor, where);
+bool convertPrimitive(Document& document, const nlohmann::json& source, const std::string& where,
+                      const TextureCoordinates& coordinates, Primitive& result) {
+  MeshReader reader(document, source, where);
   if (!reader.has("POSITION")) {
     document.note(where + ".attributes.POSITION", "is missing; the primitive is left out");
     return false;
   }
-  noteIgnoredAttributes(document, source, where);
+  if (reader.has("COLOR_0")) document.note(where + ".attributes.COLOR_0", "vertex colours are ignored");
   result.vertices = reader.vertices(coordinates);
   const std::vector<std::uint32_t> indices = reader.indices(result.vertices.size());
 
-  const auto mode = static_cast<Mode>(source.mode);
+  const auto mode = static_cast<Mode>(source.value("mode", static_cast<int>(Mode::Triangles)));
   document.spend(3 * indices.size() * sizeof(std::uint32_t), where);
   result.topology = topologyOf(mode);
   result.indices = unroll(mode, indices);
@@ -165,18 +157,18 @@ bool convertPrimitive(Document& document, const tinygltf::Primitive& source, int
 } // namespace
 
 void convertMeshes(Document& document, const std::vector<TextureCoordinates>& coordinates, Scene& scene) {
-  for (std::size_t m = 0; m < document.model.meshes.size(); ++m) {
-    const tinygltf::Mesh& source = document.model.meshes[m];
+  for (std::size_t m = 0; m < document.count("meshes"); ++m) {
+    const nlohmann::json& source = document.element("meshes", m);
+    const nlohmann::json& primitives = source["primitives"];
     Mesh mesh;
-    mesh.name = source.name;
-    for (std::size_t p = 0; p < source.primitives.size(); ++p) {
-      const int material = source.primitives[p].material;
+    mesh.name = nameOf(source);
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      const int material = primitives[p].value("material", -1);
       Primitive primitive;
       primitive.material = material < 0 ? static_cast<int>(scene.materials.size()) - 1 : material;
       const std::string where = at(at("meshes", m, "primitives"), p);
       const TextureCoordinates& uv = coordinates[static_cast<std::size_t>(primitive.material)];
-      const int indices = document.json["meshes"][m]["primitives"][p].value("indices", -1);
-      if (convertPrimitive(document, source.primitives[p], indices, where, uv, primitive)) {
+      if (convertPrimitive(document, primitives[p], where, uv, primitive)) {
         if (primitive.topology == Topology::Lines) primitive.strand = strandOf(document, m, p, primitive);
         mesh.primitives.push_back(std::move(primitive));
       }

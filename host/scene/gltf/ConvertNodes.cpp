@@ -1,6 +1,7 @@
 #include "Convert.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 
@@ -8,12 +9,13 @@ namespace host::gltf {
 
 namespace {
 
+std::vector<int> nodeList(const nlohmann::json& owner, const char* key) { return owner.value(key, std::vector<int>()); }
+
 /// The parent of each of the file's nodes, -1 for roots.
 std::vector<int> parentsOf(const Document& document) {
-  const std::vector<tinygltf::Node>& nodes = document.model.nodes;
-  std::vector<int> parents(nodes.size(), -1);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    for (const int child : nodes[i].children) {
+  std::vector<int> parents(document.count("nodes"), -1);
+  for (std::size_t i = 0; i < parents.size(); ++i) {
+    for (const int child : nodeList(document.element("nodes", i), "children")) {
       int& parent = parents[static_cast<std::size_t>(child)];
       if (parent >= 0) {
         document.refuse(at("nodes", i, "children"), "nodes[" + std::to_string(child) +
@@ -34,7 +36,7 @@ std::vector<int> nodesBelow(const Document& document, std::vector<int> roots) {
     const int node = roots.back();
     roots.pop_back();
     order.push_back(node);
-    const std::vector<int>& children = document.model.nodes[static_cast<std::size_t>(node)].children;
+    const std::vector<int> children = nodeList(document.element("nodes", node), "children");
     roots.insert(roots.end(), children.rbegin(), children.rend());
   }
   return order;
@@ -59,19 +61,13 @@ void refuseLoops(const Document& document, const std::vector<int>& parents) {
   document.refuse(at("nodes", static_cast<std::size_t>(loop - reached.begin())), "is an ancestor of itself");
 }
 
-/// The index of the scene to show, or -1 if the file has none.
-int shownScene(const Document& document) {
-  if (document.model.scenes.empty()) return -1;
-  return std::max(document.model.defaultScene, 0);
-}
-
 std::vector<int> sceneRoots(Document& document, const std::vector<int>& parents) {
-  const int shown = shownScene(document);
+  const int shown = document.shownScene();
   if (shown < 0) {
     if (!parents.empty()) document.note("scenes", "there are none; all root nodes are shown");
     return withoutParent(parents);
   }
-  const std::vector<int>& roots = document.model.scenes[static_cast<std::size_t>(shown)].nodes;
+  std::vector<int> roots = nodeList(document.element("scenes", shown), "nodes");
   for (std::size_t i = 0; i < roots.size(); ++i) {
     if (parents[static_cast<std::size_t>(roots[i])] < 0) continue;
     document.refuse(at(at("scenes", static_cast<std::size_t>(shown), "nodes"), i), "must be a node without a parent");
@@ -79,7 +75,7 @@ std::vector<int> sceneRoots(Document& document, const std::vector<int>& parents)
   return roots;
 }
 
-glm::dquat unitRotation(Document& document, const std::string& where, const std::vector<double>& xyzw) {
+glm::dquat unitRotation(Document& document, const std::string& where, const std::array<double, 4>& xyzw) {
   constexpr double kSloppy = 1e-3; // what rounding to 16 bits leaves
   const glm::dquat rotation(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
   const double length = glm::length(rotation);
@@ -89,7 +85,7 @@ glm::dquat unitRotation(Document& document, const std::string& where, const std:
 }
 
 /// glTF's matrices are affine; rounding in the last row is taken out.
-glm::dmat4 affineMatrix(const Document& document, const std::string& where, const std::vector<double>& values) {
+glm::dmat4 affineMatrix(const Document& document, const std::string& where, const std::array<double, 16>& values) {
   constexpr double kRounding = 1e-5;
   glm::dmat4 matrix = glm::make_mat4(values.data());
   for (int column = 0; column < 4; ++column) {
@@ -103,22 +99,26 @@ glm::dmat4 affineMatrix(const Document& document, const std::string& where, cons
 }
 
 Node convertNode(Document& document, std::size_t index) {
-  const tinygltf::Node& source = document.model.nodes[index];
-  const nlohmann::json& json = document.json["nodes"][index];
+  const nlohmann::json& source = document.element("nodes", index);
   const std::string where = at("nodes", index);
   Node node;
-  node.name = source.name;
-  node.mesh = source.mesh;
-  node.camera = source.camera;
-  const auto vec3 = [](const std::vector<double>& v) { return glm::dvec3(v[0], v[1], v[2]); };
-  if (!source.translation.empty()) node.translation = vec3(source.translation);
-  if (!source.rotation.empty()) node.rotation = unitRotation(document, where, source.rotation);
-  if (!source.scale.empty()) node.scale = vec3(source.scale);
-  if (!source.matrix.empty()) {
-    node.matrix = affineMatrix(document, where, source.matrix);
+  node.name = nameOf(source);
+  node.mesh = source.value("mesh", -1);
+  node.camera = source.value("camera", -1);
+  const auto vec3 = [&](const char* key, double otherwise) {
+    const auto v = source.value(key, std::array<double, 3>{otherwise, otherwise, otherwise});
+    return glm::dvec3(v[0], v[1], v[2]);
+  };
+  node.translation = vec3("translation", 0);
+  node.scale = vec3("scale", 1);
+  if (source.contains("rotation")) {
+    node.rotation = unitRotation(document, where, source["rotation"].get<std::array<double, 4>>());
+  }
+  if (source.contains("matrix")) {
+    node.matrix = affineMatrix(document, where, source["matrix"].get<std::array<double, 16>>());
   }
   const nlohmann::json::json_pointer light("/extensions/KHR_lights_punctual/light");
-  if (json.contains(light)) node.light = json[light].get<int>();
+  if (source.contains(light)) node.light = source[light].get<int>();
   return node;
 }
 

@@ -37,9 +37,20 @@ std::size_t Document::count(const char* collection) const {
   return found == json.end() ? 0 : found->size();
 }
 
+std::size_t Document::lightCount() const {
+  const auto extensions = json.find("extensions");
+  if (extensions == json.end() || !extensions->contains("KHR_lights_punctual")) return 0;
+  return (*extensions)["KHR_lights_punctual"]["lights"].size();
+}
+
 bool Document::uses(const char* extension) const {
   const auto used = json.find("extensionsUsed");
   return used != json.end() && std::find(used->begin(), used->end(), extension) != used->end();
+}
+
+std::string nameOf(const nlohmann::json& element) {
+  const auto name = element.find("name");
+  return name != element.end() && name->is_string() ? name->get<std::string>() : std::string();
 }
 
 std::string at(std::string_view collection, std::size_t index, std::string_view member) {

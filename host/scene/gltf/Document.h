@@ -9,7 +9,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <tiny_gltf.h>
 #include <vector>
 
 namespace host::gltf {
@@ -48,6 +47,18 @@ public:
   /// The number of elements of a root array such as "accessors".
   std::size_t count(const char* collection) const;
 
+  /// One of them, which must be there.
+  const nlohmann::json& element(const char* collection, std::size_t index) const { return json[collection][index]; }
+  const nlohmann::json& element(const char* collection, int index) const {
+    return element(collection, static_cast<std::size_t>(index));
+  }
+
+  /// The index of the scene to show, or -1 if the file has none.
+  int shownScene() const { return count("scenes") == 0 ? -1 : json.value("scene", 0); }
+
+  /// Of KHR_lights_punctual.
+  std::size_t lightCount() const;
+
   bool uses(const char* extension) const;
 
   const std::filesystem::path& file() const { return file_; }
@@ -56,7 +67,6 @@ public:
   nlohmann::json json;        ///< the whole document; checked and with whole numbers as integers after check()
   Bytes binaryChunk;          ///< BIN of a .glb; data is null if there is none
   std::vector<Bytes> buffers; ///< as long as their byteLength; data is null for a buffer without a source
-  tinygltf::Model model;      ///< all but buffers, images and skins
 
   std::vector<std::uint8_t> fileBytes;                 ///< what binaryChunk points into
   std::vector<std::vector<std::uint8_t>> ownedBuffers; ///< what other buffers point into
@@ -67,6 +77,9 @@ private:
   std::set<std::filesystem::path> inputs_;
   std::uint64_t budget_ = kDecodedBytes;
 };
+
+/// The name that an element has, empty if it has none.
+std::string nameOf(const nlohmann::json& element);
 
 /// "accessors[3]" and "accessors[3].count".
 std::string at(std::string_view collection, std::size_t index, std::string_view member = {});

@@ -2,21 +2,24 @@
 #pragma once
 
 #include <string_view>
-#include <tiny_gltf.h>
 
 namespace host::gltf {
+
+/// Component types, as GL numbers them.
+inline constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123, kUnsignedInt = 5125,
+                     kFloat = 5126;
 
 /// Bytes of a component, 0 for a type that glTF does not know.
 inline int componentSize(int type) {
   switch (type) {
-  case TINYGLTF_COMPONENT_TYPE_BYTE:
-  case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+  case kByte:
+  case kUnsignedByte:
     return 1;
-  case TINYGLTF_COMPONENT_TYPE_SHORT:
-  case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+  case kShort:
+  case kUnsignedShort:
     return 2;
-  case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-  case TINYGLTF_COMPONENT_TYPE_FLOAT:
+  case kUnsignedInt:
+  case kFloat:
     return 4;
   default:
     return 0;
@@ -24,10 +27,7 @@ inline int componentSize(int type) {
 }
 
 /// The types of vertex indices and of the indices of a sparse accessor.
-inline bool isIndexType(int type) {
-  return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-         type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-}
+inline bool isIndexType(int type) { return type == kUnsignedByte || type == kUnsignedShort || type == kUnsignedInt; }
 
 /// Bytes from an element to the next, and those that an element takes: columns of matrices begin at multiples of 4
 /// bytes, but the last one is not padded.

@@ -25,8 +25,9 @@ bool isPngOrJpeg(const std::vector<std::uint8_t>& bytes) {
 }
 
 Wrap wrapOf(int mode) {
-  if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::ClampToEdge;
-  return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::MirroredRepeat : Wrap::Repeat;
+  constexpr int kClampToEdge = 33071, kMirroredRepeat = 33648; // GL's
+  if (mode == kClampToEdge) return Wrap::ClampToEdge;
+  return mode == kMirroredRepeat ? Wrap::MirroredRepeat : Wrap::Repeat;
 }
 
 } // namespace
@@ -34,13 +35,17 @@ Wrap wrapOf(int mode) {
 int TextureLoader::load(int index) {
   const auto found = loaded_.find(index);
   if (found != loaded_.end()) return found->second;
-  const tinygltf::Texture& source = document_.model.textures[static_cast<std::size_t>(index)];
+  const nlohmann::json& source = document_.element("textures", index);
   int result = -1;
   try {
-    if (source.source < 0) throw Error("names no image that can be read");
+    if (!source.contains("source")) throw Error("names no image that can be read");
     Texture texture;
-    decode(encodedImage(static_cast<std::size_t>(source.source)), texture);
-    setWrap(source.sampler, texture);
+    decode(encodedImage(source["source"].get<std::size_t>()), texture);
+    if (source.contains("sampler")) {
+      const nlohmann::json& sampler = document_.element("samplers", source["sampler"].get<std::size_t>());
+      texture.wrapU = wrapOf(sampler.value("wrapS", 0));
+      texture.wrapV = wrapOf(sampler.value("wrapT", 0));
+    }
     textures_.push_back(std::move(texture));
     result = static_cast<int>(textures_.size()) - 1;
   } catch (const Error& error) {
@@ -51,7 +56,7 @@ int TextureLoader::load(int index) {
 }
 
 std::vector<std::uint8_t> TextureLoader::encodedImage(std::size_t index) {
-  const nlohmann::json& image = document_.json["images"][index];
+  const nlohmann::json& image = document_.element("images", index);
   const std::string name = at("images", index);
   if (image.contains("uri")) {
     try {
@@ -62,12 +67,12 @@ std::vector<std::uint8_t> TextureLoader::encodedImage(std::size_t index) {
   }
   if (!image.contains("bufferView")) throw Error(name + ": has neither uri nor bufferView");
   const auto view = image["bufferView"].get<std::size_t>();
-  if (view >= document_.model.bufferViews.size()) throw Error(name + ".bufferView: there is no such buffer view");
-  const tinygltf::BufferView& bufferView = document_.model.bufferViews[view];
-  const Bytes& buffer = document_.buffers[static_cast<std::size_t>(bufferView.buffer)];
+  if (view >= document_.count("bufferViews")) throw Error(name + ".bufferView: there is no such buffer view");
+  const nlohmann::json& bufferView = document_.element("bufferViews", view);
+  const Bytes& buffer = document_.buffers[bufferView["buffer"].get<std::size_t>()];
   if (buffer.data == nullptr) throw Error(name + ".bufferView: its buffer has no data");
-  const std::uint8_t* begin = buffer.data + bufferView.byteOffset;
-  return {begin, begin + bufferView.byteLength};
+  const std::uint8_t* begin = buffer.data + bufferView.value("byteOffset", std::size_t{0});
+  return {begin, begin + bufferView["byteLength"].get<std::size_t>()};
 }
 
 void TextureLoader::decode(const std::vector<std::uint8_t>& encoded, Texture& texture) {
@@ -87,13 +92,6 @@ void TextureLoader::decode(const std::vector<std::uint8_t>& encoded, Texture& te
       stbi_load_from_memory(encoded.data(), size, &texture.width, &texture.height, &channels, 4), stbi_image_free);
   if (rgba == nullptr) throw Error(std::string("the image cannot be decoded: ") + stbi_failure_reason());
   texture.rgba.assign(rgba.get(), rgba.get() + 4 * pixels);
-}
-
-void TextureLoader::setWrap(int sampler, Texture& texture) {
-  if (sampler < 0) return;
-  const tinygltf::Sampler& source = document_.model.samplers[static_cast<std::size_t>(sampler)];
-  texture.wrapU = wrapOf(source.wrapS);
-  texture.wrapV = wrapOf(source.wrapT);
 }
 
 } // namespace host::gltf

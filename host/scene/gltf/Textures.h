@@ -19,7 +19,6 @@ public:
 private:
   std::vector<std::uint8_t> encodedImage(std::size_t image);
   void decode(const std::vector<std::uint8_t>& encoded, Texture& texture);
-  void setWrap(int sampler, Texture& texture);
 
   Document& document_;
   std::vector<Texture>& textures_;

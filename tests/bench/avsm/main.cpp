@@ -4,7 +4,6 @@
 #include "Methods.h"
 #include "Report.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <gl/Context.h>
 #include <map>
 #include <optional>
+#include <render/OptionRules.h>
 #include <scene/Error.h>
 #include <scene/FileIo.h>
 #include <scene/ImageFile.h>
@@ -27,7 +27,7 @@ struct Options {
   std::vector<std::string> methods;
   int size = 256;
   int runs = 5;
-  std::string context; ///< empty: the host's default
+  std::optional<host::ContextKind> context; ///< none: the host's default
   std::string csv, curves, images;
   bool passes = false;
 };
@@ -215,8 +215,8 @@ std::vector<MethodEntry> chosen(const Options& options) {
 }
 
 void run(const Options& options) {
-  const std::unique_ptr<host::Context> context = host::Context::create(
-      options.context.empty() ? host::defaultContextKind() : host::parseContextKind(options.context));
+  const std::unique_ptr<host::Context> context =
+      host::Context::create(options.context ? *options.context : host::defaultContextKind());
   if (context->glVersion() < 43) throw host::Error("the context is older than OpenGL 4.3");
   const std::vector<MethodEntry> methods = chosen(options);
   for (const std::string& file : {options.csv, options.curves})
@@ -251,27 +251,37 @@ void run(const Options& options) {
   if (!options.curves.empty()) host::writeText(options.curves, curves.str());
 }
 
-} // namespace
-
-} // namespace avsmbench
-
-int main(int argc, char** argv) {
-  avsmbench::Options options;
+Options parseOptions(int argc, char** argv) {
+  Options options;
+  std::vector<std::string> methods;
+  for (const MethodEntry& entry : allMethods())
+    methods.push_back(entry.name);
   CLI::App app("Adaptive volumetric shadow maps against other methods: error, memory, time.", "tyndall-avsm-bench");
-  app.add_option("--scenes", options.scenes, "smoke, smoke-tenth, hair, hair-tenth; all if not named")->delimiter(',');
-  app.add_option("--methods", options.methods, "by the names that the table has; all if not named")->delimiter(',');
+  render::addList(app, "--scenes", options.scenes, render::oneOf("--scenes", mapSceneNames()),
+                  "smoke, smoke-tenth, hair, hair-tenth; all if not named");
+  render::addList(app, "--methods", options.methods, render::oneOf("--methods", methods),
+                  "by the names that the table has; all if not named");
   app.add_option("--size", options.size, "texels per side of the map")->check(CLI::Range(8, 1024));
   app.add_option("--runs", options.runs, "timed runs behind a warm-up; 0: errors and memory only")
       ->check(CLI::Range(0, 100));
-  app.add_option("--context", options.context, "osmesa (default; egl where it is not installed), egl or glfw");
+  render::chooseFrom(render::kContextNames, app.add_option("--context", options.context,
+                                                           "GL's (default osmesa; egl where it is not installed)"));
   app.add_option("--csv", options.csv, "a file for the table");
   app.add_option("--curves", options.curves, "a file for curves of single texels, for plotCurves.py");
   app.add_option("--images", options.images, "a folder for pictures of look-ups, with differences")
       ->check(CLI::ExistingDirectory);
   app.add_flag("--passes", options.passes, "times of the passes of resolve() as well");
-  return host::runTool("tyndall-avsm-bench", [&] {
-    CLI11_PARSE(app, argc, argv);
-    avsmbench::run(options);
+  render::parseArguments(app, argc, argv);
+  return options;
+}
+
+} // namespace
+
+} // namespace avsmbench
+
+int main(int argc, char** argv) {
+  return render::runCommand("tyndall-avsm-bench", [&] {
+    avsmbench::run(avsmbench::parseOptions(argc, argv));
     return 0;
   });
 }

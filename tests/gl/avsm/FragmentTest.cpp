@@ -1,6 +1,7 @@
 // The way of an engine: world positions to depths by avsmDepth(), and fragments that capture or insert smoke.
 #include "AvsmRig.h"
 #include "support/Catch.h"
+#include "support/EffectRig.h"
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -11,21 +12,13 @@ using tests::AvsmRig;
 
 namespace {
 
-Mat4 toMat4(const glm::dmat4& m) {
-  Mat4 result{};
-  for (int c = 0; c < 4; ++c)
-    for (int r = 0; r < 4; ++r)
-      result[static_cast<std::size_t>(4 * c + r)] = m[c][r];
-  return result;
-}
-
 Light lightOf(const glm::dmat4& clipFromView, bool directional, ClipDepth clipDepth) {
   Light light;
   light.kind = directional ? LightKind::Directional : LightKind::Spot;
   light.position = {1, 2, 3};
   light.direction = {0, 0, -1};
   light.shadow.clipDepth = clipDepth;
-  light.shadow.views = {{toMat4(clipFromView * glm::translate(glm::dmat4(1), glm::dvec3(-1, -2, -3))), 0}};
+  light.shadow.views = {{tests::toMat4(clipFromView * glm::translate(glm::dmat4(1), glm::dvec3(-1, -2, -3))), 0}};
   return light;
 }
 

@@ -2,6 +2,7 @@
 #include "AvsmRig.h"
 #include "gl/effect/GlState.h"
 #include "support/Catch.h"
+#include "support/EffectRig.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,19 +24,11 @@ struct Sphere {
   float radius = 0, density = 0;
 };
 
-Mat4 toMat4(const glm::dmat4& m) {
-  Mat4 result{};
-  for (int c = 0; c < 4; ++c)
-    for (int r = 0; r < 4; ++r)
-      result[static_cast<std::size_t>(4 * c + r)] = m[c][r];
-  return result;
-}
-
 // Travels along -z through the cube from -1 to 1, so that depth is (1 - z) / 2.
 Light parallelLight() {
   Light light;
   light.direction = {0, 0, -1};
-  light.shadow.views = {{toMat4(glm::scale(glm::dmat4(1), glm::dvec3(1, 1, -1))), 0}};
+  light.shadow.views = {{tests::toMat4(glm::scale(glm::dmat4(1), glm::dvec3(1, 1, -1))), 0}};
   return light;
 }
 
@@ -49,7 +42,7 @@ Light spotLight(bool reversed) {
   const glm::dmat4 view = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -2));
   glm::dmat4 projection = glm::perspective(1.0, 1.0, kNear, kFar);
   if (reversed) projection = glm::scale(glm::dmat4(1), glm::dvec3(1, 1, -1)) * projection;
-  light.shadow.views = {{toMat4(projection * view), 0}};
+  light.shadow.views = {{tests::toMat4(projection * view), 0}};
   return light;
 }
 
@@ -268,7 +261,8 @@ TEST_CASE("avsm particles: an origin far away, and each view in its layer") {
   Light light = parallelLight();
   const glm::dmat4 moved =
       glm::scale(glm::dmat4(1), glm::dvec3(1, 1, -1)) * glm::translate(glm::dmat4(1), glm::dvec3(-1e7, 2e7, -3e7));
-  light.shadow.views = {{toMat4(glm::scale(glm::dmat4(1), glm::dvec3(1e3, 1, 1)) * moved), 0}, {toMat4(moved), 1}};
+  light.shadow.views = {{tests::toMat4(glm::scale(glm::dmat4(1), glm::dvec3(1e3, 1, 1)) * moved), 0},
+                        {tests::toMat4(moved), 1}};
   REQUIRE(far.avsm().beginStreaming());
   CHECK(far.avsm().drawParticles(light, buffer.particles));
   REQUIRE(far.avsm().resolve());
@@ -350,7 +344,7 @@ TEST_CASE("avsm particles: what breaks a rule is named, and draws nothing") {
   check("view is 0: the light's direction must have a length", buffer.particles, light);
   light = spotLight(false);
   light.shadow.views[0].clipFromWorld =
-      toMat4(glm::infinitePerspective(1.0, 1.0, 0.5) * glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -2)));
+      tests::toMat4(glm::infinitePerspective(1.0, 1.0, 0.5) * glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -2)));
   check("view is 0: its far plane must not be at infinity", buffer.particles, light);
   REQUIRE(rig.avsm().resolve());
   for (int i = 0; i < 16; ++i)

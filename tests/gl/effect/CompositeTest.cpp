@@ -220,12 +220,11 @@ TEST_CASE("statistics name the passes and time them") {
   const host::GlTexture colour = rig.makeColour(GL_RGBA16F, backBuffer());
   for (const PassTiming timing : {PassTiming::Off, PassTiming::Finish, PassTiming::TimerQuery}) {
     CAPTURE(static_cast<int>(timing));
-    const CreateResult result = Effect::create({tests::testContext().loader(), timing});
-    REQUIRE(result.effect);
-    CHECK(result.effect->statistics().passes.empty());
+    const std::unique_ptr<Effect> result = tests::newEffect({{}, timing});
+    CHECK(result->statistics().passes.empty());
     const auto begin = std::chrono::steady_clock::now();
-    REQUIRE(result.effect->render(rig.frame));
-    const Statistics statistics = result.effect->statistics();
+    REQUIRE(result->render(rig.frame));
+    const Statistics statistics = result->statistics();
     const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
     std::vector<std::string> names;
     double sum = 0;
@@ -243,13 +242,13 @@ TEST_CASE("statistics name the passes and time them") {
           std::vector<std::string>{"transmittance", "exact light 0", "exact light 1", "exact light 2", "composite"});
     CHECK(statistics.compiledPrograms == 5);
     CHECK(statistics.bytes > 0);
-    REQUIRE(result.effect->render(rig.frame));
-    CHECK(result.effect->statistics().passes.size() == 5); // of the last frame only
-    CHECK(result.effect->statistics().compiledPrograms == 5);
+    REQUIRE(result->render(rig.frame));
+    CHECK(result->statistics().passes.size() == 5); // of the last frame only
+    CHECK(result->statistics().compiledPrograms == 5);
     Frame frame = rig.frame;
     frame.output.inscatter = 0;
-    REQUIRE(result.effect->render(frame));
-    CHECK(result.effect->statistics().bytes == statistics.bytes + 16 * kWidth * kHeight);
+    REQUIRE(result->render(frame));
+    CHECK(result->statistics().bytes == statistics.bytes + 16 * kWidth * kHeight);
   }
 }
 

@@ -36,13 +36,6 @@ void requireStatus(const CreateResult& result, StatusCode code, const std::strin
   CHECK(result.status.message.find('\n') == std::string::npos);
 }
 
-std::unique_ptr<Effect> createHere(GlLoader loader, PassTiming timing = PassTiming::Off) {
-  CreateResult result = Effect::create({loader, timing});
-  INFO(result.status.message);
-  REQUIRE(result.effect);
-  return std::move(result.effect);
-}
-
 // A context with a scene and an effect of its own.
 struct World {
   std::unique_ptr<host::Context> context;
@@ -54,7 +47,7 @@ struct World {
     scene->addLight(LightKind::Directional, tests::Casters::Blocks, true);
     scene->addLight(LightKind::Point);
     scene->addLight(LightKind::Spot);
-    effect = createHere(context->loader());
+    effect = tests::newEffect({context->loader()});
   }
   World(const World&) = delete;
   World& operator=(const World&) = delete;
@@ -175,8 +168,8 @@ TEST_CASE("two effects in one context draw the same") {
   tests::SceneRig scene;
   scene.addLight(LightKind::Spot, tests::Casters::Blocks, true);
   const reference::ImageAnswer expected = scene.render();
-  std::unique_ptr<Effect> first = createHere(tests::testContext().loader());
-  std::unique_ptr<Effect> second = createHere(tests::testContext().loader());
+  std::unique_ptr<Effect> first = tests::newEffect();
+  std::unique_ptr<Effect> second = tests::newEffect();
   for (int frame = 0; frame < 3; ++frame)
     for (Effect* effect : {first.get(), second.get(), &tests::testEffect()})
       CHECK(scene.render(*effect).inscatter == expected.inscatter);
@@ -218,7 +211,7 @@ TEST_CASE("an effect leaves no GL object behind") {
   const host::GlTexture colour = scene.makeColour(GL_RGBA16F, std::vector<float>(4 * 24 * 16, 1.0F));
   const std::vector<int> before = tests::liveGlObjects();
   for (int i = 0; i < 3; ++i) {
-    const std::unique_ptr<Effect> effect = createHere(tests::testContext().loader(), PassTiming::TimerQuery);
+    const std::unique_ptr<Effect> effect = tests::newEffect({tests::testContext().loader(), PassTiming::TimerQuery});
     Frame frame = scene.frame;
     frame.output.transmittance = 0; // so that a target of the effect's own is needed
     CHECK(effect->render(frame));

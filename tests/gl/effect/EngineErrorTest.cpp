@@ -11,6 +11,7 @@ using namespace tyndall;
 using host::gl;
 using tests::Fault;
 using tests::FaultyContext;
+using tests::newEffect;
 using tests::Stage;
 using tests::Times;
 
@@ -62,15 +63,6 @@ void checkStays(const std::string& name, const std::function<void()>& call) {
   }
 }
 
-std::unique_ptr<Effect> newEffect(const FaultyContext& context, PassTiming timing = PassTiming::Off) {
-  Config config;
-  config.timing = timing;
-  CreateResult created = context.create(config);
-  INFO(created.status.message);
-  REQUIRE(created.effect);
-  return std::move(created.effect);
-}
-
 void require(const Status& status) {
   INFO(status.message);
   REQUIRE(status);
@@ -81,15 +73,15 @@ void require(const Status& status) {
 TEST_CASE("an engine's pending error stays: create, statistics, and the end of an effect") {
   const FaultyContext context;
   std::unique_ptr<Effect> effect;
-  checkStays("create", [&] { effect = newEffect(context); });
+  checkStays("create", [&] { effect = newEffect({context.loader()}); });
   checkStays("create, refused", [&] { CHECK_FALSE(Effect::create({}).effect); });
   Stage stage(tests::frameCase("epipolar"));
-  effect = newEffect(context, PassTiming::TimerQuery);
+  effect = newEffect({context.loader(), PassTiming::TimerQuery});
   stage.draw(*effect);
   checkStays("statistics", [&] { effect->statistics(); });
   checkStays("end", [&] {
     effect.reset();
-    effect = newEffect(context);
+    effect = newEffect({context.loader()});
   });
 }
 
@@ -99,10 +91,10 @@ TEST_CASE("an engine's pending error stays: frames of every kind, and their pict
     if (!tests::canDraw(item)) continue;
     context.setMaxTextureSize(item.maxTextureSize);
     Stage stage(item);
-    const std::unique_ptr<Effect> effect = newEffect(context);
+    const std::unique_ptr<Effect> effect = newEffect({context.loader()});
     const tests::TargetContents expected = stage.draw(*effect);
     checkStays(item.name, [&] {
-      const std::unique_ptr<Effect> fresh = newEffect(context);
+      const std::unique_ptr<Effect> fresh = newEffect({context.loader()});
       stage.fill();
       require(fresh->render(stage.frame()));
       CHECK(tests::bitEqual(stage.read(), expected));
@@ -113,11 +105,11 @@ TEST_CASE("an engine's pending error stays: frames of every kind, and their pict
 TEST_CASE("an engine's pending error stays: prepare, compileAll, and frames that are refused") {
   FaultyContext context;
   Stage stage(tests::frameCase("epipolar, two lights"));
-  std::unique_ptr<Effect> effect = newEffect(context);
+  std::unique_ptr<Effect> effect = newEffect({context.loader()});
   checkStays("prepare", [&] { require(effect->prepare(stage.frame()).status); });
   checkStays("compileAll, with shaders that do not build", [&] {
     context.fail(Fault::Compile, 1, Times::From);
-    CHECK(newEffect(context)->compileAll().code == StatusCode::ShaderError);
+    CHECK(newEffect({context.loader()})->compileAll().code == StatusCode::ShaderError);
     context.heal();
   });
   Frame broken = stage.frame();

@@ -126,12 +126,11 @@ TEST_CASE("tree and epipolar come close to exact behind wide slats") {
 TEST_CASE("the first frame of an effect equals its second") {
   for (const Technique technique : {Technique::Tree, Technique::Epipolar}) {
     host::Context& context = tests::testContext();
-    const CreateResult created = Effect::create({context.loader(), PassTiming::Off});
-    REQUIRE(created.effect);
+    const std::unique_ptr<Effect> created = tests::newEffect({context.loader()});
     Rig rig(LightKind::Directional, Map::Slats, kDirections[0]);
     rig.frame.frame.settings.technique = technique;
     const auto pixels = [&] {
-      REQUIRE(created.effect->render(rig.frame.frame));
+      REQUIRE(created->render(rig.frame.frame));
       return host::readColour(rig.frame.frame.output.inscatter, kWidth, kHeight, 3);
     };
     const std::vector<float> first = pixels();

@@ -57,10 +57,10 @@ FaultSweep::FaultSweep(FaultyContext& context, const FrameCase& item)
   context_.setMaxTextureSize(case_.maxTextureSize);
   stage_.fill();
   before_ = stage_.read();
-  const std::unique_ptr<Effect> effect = newEffect();
+  const std::unique_ptr<Effect> effect = newEffect({context_.loader()});
   drawEarlier(*effect);
   continued_ = stage_.draw(*effect);
-  full_ = stage_.draw(*newEffect());
+  full_ = stage_.draw(*newEffect({context_.loader()}));
 }
 
 Findings FaultSweep::run(const SweepOptions& options) {
@@ -69,13 +69,6 @@ Findings FaultSweep::run(const SweepOptions& options) {
     if (!runOnce(options, call, findings)) return findings;
   findings.add("no end of calls", kMostCalls);
   return findings;
-}
-
-std::unique_ptr<Effect> FaultSweep::newEffect() const {
-  CreateResult created = context_.create();
-  INFO(created.status.message);
-  REQUIRE(created.effect);
-  return std::move(created.effect);
 }
 
 // The view's frames before the one that is looked at.
@@ -91,7 +84,7 @@ bool FaultSweep::isExpected(const TargetContents& drawn) const {
 }
 
 bool FaultSweep::runOnce(const SweepOptions& options, int call, Findings& findings) {
-  const std::unique_ptr<Effect> effect = newEffect();
+  const std::unique_ptr<Effect> effect = newEffect({context_.loader()});
   if (options.used) other_.draw(*effect);
   stage_.rewind();
   drawEarlier(*effect);

@@ -49,7 +49,6 @@ public:
 
 private:
   bool runOnce(const SweepOptions& options, int call, Findings& findings);
-  std::unique_ptr<tyndall::Effect> newEffect() const;
   void drawEarlier(tyndall::Effect& effect);
   bool isExpected(const TargetContents& drawn) const;
 

@@ -310,4 +310,14 @@ TargetContents Stage::draw(Effect& effect) {
   return read();
 }
 
+std::vector<TargetContents> drawFrames(Stage& stage, Effect& effect) {
+  std::vector<TargetContents> pictures;
+  stage.rewind();
+  for (int i = 0; i < 3; ++i) {
+    pictures.push_back(stage.draw(effect));
+    stage.advance();
+  }
+  return pictures;
+}
+
 } // namespace tests

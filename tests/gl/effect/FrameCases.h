@@ -82,4 +82,13 @@ private:
   host::GlBuffer vertices_;
 };
 
+/// The pictures of a view's first frames, from rewind() on.
+std::vector<TargetContents> drawFrames(Stage& stage, tyndall::Effect& effect);
+
+/// Equality of what is too long to be printed where it fails.
+template <typename Value>
+bool same(const Value& a, const Value& b) {
+  return a == b;
+}
+
 } // namespace tests

@@ -7,8 +7,10 @@
 #include <functional>
 
 using namespace tyndall;
+using tests::drawFrames;
 using tests::Fault;
 using tests::FaultyContext;
+using tests::same;
 using tests::Stage;
 using tests::Times;
 
@@ -16,30 +18,8 @@ namespace {
 
 constexpr int kMostCalls = 200;
 
-std::unique_ptr<Effect> newEffect(const FaultyContext& context, const ProgramStore& programs) {
-  Config config;
-  config.programs = programs;
-  CreateResult created = context.create(config);
-  INFO(created.status.message);
-  REQUIRE(created.effect);
-  return std::move(created.effect);
-}
-
-// The pictures of a view's first frames.
-std::vector<tests::TargetContents> drawFrames(Stage& stage, Effect& effect) {
-  std::vector<tests::TargetContents> pictures;
-  stage.rewind();
-  for (int i = 0; i < 3; ++i) {
-    pictures.push_back(stage.draw(effect));
-    stage.advance();
-  }
-  return pictures;
-}
-
-// Not printed where it fails.
-template <typename Value>
-bool same(const Value& a, const Value& b) {
-  return a == b;
+std::unique_ptr<Effect> effectWith(const FaultyContext& context, const ProgramStore& programs) {
+  return tests::newEffect({context.loader(), PassTiming::Off, programs});
 }
 
 // A store in memory.
@@ -116,7 +96,7 @@ TEST_CASE("program store: what one effect compiled the next one loads, and draws
     CAPTURE(name);
     Shelf shelf;
     Stage stage(tests::frameCase(name));
-    std::unique_ptr<Effect> effect = newEffect(context, shelf.store());
+    std::unique_ptr<Effect> effect = effectWith(context, shelf.store());
     context.resetCounts();
     CHECK(effect->prepare(stage.frame()).ready()); // more than the frames below need
     const std::vector<tests::TargetContents> expected = drawFrames(stage, *effect);
@@ -129,7 +109,7 @@ TEST_CASE("program store: what one effect compiled the next one loads, and draws
       CHECK_FALSE(entry.second.empty());
     }
     for (const bool prepares : {true, false}) {
-      effect = newEffect(context, shelf.store());
+      effect = effectWith(context, shelf.store());
       context.resetCounts();
       shelf.saves = 0;
       if (prepares) CHECK(effect->prepare(stage.frame()).ready());
@@ -145,7 +125,7 @@ TEST_CASE("program store: bytes that are spoiled are compiled anew, and replaced
   FaultyContext context;
   Stage stage(tests::frameCase("epipolar, two lights, all targets"));
   Shelf good;
-  const std::vector<tests::TargetContents> expected = drawFrames(stage, *newEffect(context, good.store()));
+  const std::vector<tests::TargetContents> expected = drawFrames(stage, *effectWith(context, good.store()));
   REQUIRE_FALSE(good.held.empty());
   for (const auto& [name, spoil] : spoilers()) {
     CAPTURE(name);
@@ -154,7 +134,7 @@ TEST_CASE("program store: bytes that are spoiled are compiled anew, and replaced
     for (auto& entry : shelf.held)
       spoil(entry.second);
     context.resetCounts();
-    CHECK(same(drawFrames(stage, *newEffect(context, shelf.store())), expected));
+    CHECK(same(drawFrames(stage, *effectWith(context, shelf.store())), expected));
     CHECK(context.counts().links == static_cast<int>(good.held.size()));
     CHECK(same(shelf.held, good.held));
     CHECK(tests::takeGlError() == GL_NO_ERROR);
@@ -163,7 +143,7 @@ TEST_CASE("program store: bytes that are spoiled are compiled anew, and replaced
   std::vector<std::uint8_t> last = swapped.held.rbegin()->second;
   for (auto& entry : swapped.held)
     std::swap(entry.second, last);
-  CHECK(same(drawFrames(stage, *newEffect(context, swapped.store())), expected));
+  CHECK(same(drawFrames(stage, *effectWith(context, swapped.store())), expected));
   CHECK(same(swapped.held, good.held));
 }
 
@@ -172,12 +152,12 @@ TEST_CASE("program store: binaries that the driver refuses are compiled anew") {
   FaultyContext context;
   Stage stage(tests::frameCase("epipolar, two lights, all targets"));
   Shelf shelf;
-  const std::vector<tests::TargetContents> expected = drawFrames(stage, *newEffect(context, shelf.store()));
+  const std::vector<tests::TargetContents> expected = drawFrames(stage, *effectWith(context, shelf.store()));
   REQUIRE_FALSE(shelf.held.empty());
   for (const Times times : {Times::From, Times::Only})
     for (int call = 1; call < kMostCalls; ++call) {
       CAPTURE(call);
-      const std::unique_ptr<Effect> effect = newEffect(context, shelf.store());
+      const std::unique_ptr<Effect> effect = effectWith(context, shelf.store());
       context.fail(Fault::Binary, call, times);
       const std::vector<tests::TargetContents> drawn = drawFrames(stage, *effect);
       if (!context.heal()) break;
@@ -185,17 +165,17 @@ TEST_CASE("program store: binaries that the driver refuses are compiled anew") {
       CHECK(tests::takeGlError() == GL_NO_ERROR);
     }
   context.forgetBinaries(); // a new driver that gives the same version
-  CHECK(same(drawFrames(stage, *newEffect(context, shelf.store())), expected));
+  CHECK(same(drawFrames(stage, *effectWith(context, shelf.store())), expected));
 }
 
 TEST_CASE("program store: neither asked nor filled where the driver has no binaries, or half of it is missing") {
   if (!hasBinaries()) return;
   FaultyContext context;
   Stage stage(tests::frameCase("epipolar"));
-  const std::vector<tests::TargetContents> expected = drawFrames(stage, *newEffect(context, {}));
+  const std::vector<tests::TargetContents> expected = drawFrames(stage, *tests::newEffect({context.loader()}));
   Shelf shelf;
   context.setBinaryFormats(0);
-  CHECK(same(drawFrames(stage, *newEffect(context, shelf.store())), expected));
+  CHECK(same(drawFrames(stage, *effectWith(context, shelf.store())), expected));
   CHECK(shelf.saves == 0);
   context.setBinaryFormats(1);
   for (const bool loads : {true, false}) {
@@ -204,7 +184,7 @@ TEST_CASE("program store: neither asked nor filled where the driver has no binar
       half.save = nullptr;
     else
       half.load = nullptr;
-    CHECK(same(drawFrames(stage, *newEffect(context, half)), expected));
+    CHECK(same(drawFrames(stage, *effectWith(context, half)), expected));
   }
   CHECK(shelf.saves == 0);
   CHECK(shelf.asked.empty());

@@ -30,12 +30,11 @@ std::uint64_t bytesOf(Profile profile, bool coloured) {
   const host::GlTexture colour = host::makeTexture2D(GL_R11F_G11F_B10F, kWidth, kHeight);
   frame.colour = colour.name();
   frame.output = {};
-  const CreateResult created = Effect::create({tests::testContext().loader(), PassTiming::Off});
-  REQUIRE(created.effect);
-  const Status status = created.effect->render(frame);
+  const std::unique_ptr<Effect> created = tests::newEffect();
+  const Status status = created->render(frame);
   INFO(status.message);
   REQUIRE(status);
-  return created.effect->statistics().bytes;
+  return created->statistics().bytes;
 }
 
 struct Case {

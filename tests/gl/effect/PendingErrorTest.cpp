@@ -87,17 +87,10 @@ void GLAD_API_PTR storeNothing(GLenum, GLenum, GLsizei, GLsizei) {
 }
 GLenum GLAD_API_PTR askFlag() { return flag != GL_NO_ERROR ? std::exchange(flag, GL_NO_ERROR) : gl().GetError(); }
 
-tests::ShaftRig rigOf(Technique technique) {
-  tests::ShaftRig rig(48, 32);
-  rig.addLight(tests::shaftLight(LightKind::Directional), 64);
-  rig.scene.frame.settings.technique = technique;
-  return rig;
-}
-
 } // namespace
 
 TEST_CASE("pending errors: the engine finds its own after any call, and its callback hears of none twice") {
-  tests::ShaftRig rig = rigOf(Technique::Epipolar);
+  tests::ShaftRig rig = tests::smallShaftRig(Technique::Epipolar);
   Frame wrong = rig.scene.frame;
   wrong.lights[0].shadow.array = !wrong.lights[0].shadow.array;
   for (const bool asksTargets : {true, false})
@@ -130,7 +123,7 @@ TEST_CASE("pending errors: a frame of which all is there asks for none") {
   for (const Technique technique : {Technique::Exact, Technique::Tree, Technique::Epipolar, Technique::LowRank})
     for (const Changes changes : {Changes::Unknown, Changes::Detect}) {
       CAPTURE(static_cast<int>(technique), static_cast<int>(changes));
-      tests::ShaftRig rig = rigOf(technique);
+      tests::ShaftRig rig = tests::smallShaftRig(technique);
       rig.scene.frame.reuse.changes = changes;
       const FakeContext fake({}, {{"glGetError", address(countQuestions)}});
       const CreateResult created = fake.create();
@@ -148,7 +141,7 @@ TEST_CASE("pending errors: memory that has run out is seen behind the engine's e
   for (const bool renderbuffers : {false, true})
     for (const GLenum engines : {GL_NO_ERROR, GL_INVALID_OPERATION, GL_OUT_OF_MEMORY}) {
       CAPTURE(renderbuffers, engines);
-      tests::ShaftRig rig = rigOf(Technique::Epipolar);
+      tests::ShaftRig rig = tests::smallShaftRig(Technique::Epipolar);
       rig.scene.frame.output.transmittance = 0; // so that a target of the effect's own is needed
       std::map<std::string, void*> replaced = {{"glGetError", address(askFlag)}};
       if (renderbuffers)

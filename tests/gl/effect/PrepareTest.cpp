@@ -12,22 +12,18 @@
 using namespace tyndall;
 using tests::Call;
 using tests::Compiling;
+using tests::drawFrames;
 using tests::Fault;
 using tests::FaultyContext;
 using tests::FrameCase;
+using tests::newEffect;
+using tests::same;
 using tests::Stage;
 using tests::Times;
 
 namespace {
 
 constexpr int kFrames = 3, kMostCalls = 200;
-
-std::unique_ptr<Effect> newEffect(const FaultyContext& context) {
-  CreateResult created = context.create();
-  INFO(created.status.message);
-  REQUIRE(created.effect);
-  return std::move(created.effect);
-}
 
 // Until all is compiled; what the last call said.
 PrepareStatus prepareAll(Effect& effect, const Frame& frame) {
@@ -56,23 +52,6 @@ int built(const FaultyContext& context) {
   return counts.compiles + counts.links + counts.loadedBinaries;
 }
 
-// The pictures of a view's first frames.
-std::vector<tests::TargetContents> drawFrames(Stage& stage, Effect& effect) {
-  std::vector<tests::TargetContents> pictures;
-  stage.rewind();
-  for (int i = 0; i < kFrames; ++i) {
-    pictures.push_back(stage.draw(effect));
-    stage.advance();
-  }
-  return pictures;
-}
-
-// Not printed where it fails.
-template <typename Value>
-bool same(const Value& a, const Value& b) {
-  return a == b;
-}
-
 } // namespace
 
 TEST_CASE("prepare: frames like the one that was prepared compile nothing, in every frame of a view") {
@@ -82,7 +61,7 @@ TEST_CASE("prepare: frames like the one that was prepared compile nothing, in ev
     context.setMaxTextureSize(item.maxTextureSize);
     CAPTURE(item.name);
     Stage stage(item);
-    const std::unique_ptr<Effect> effect = newEffect(context);
+    const std::unique_ptr<Effect> effect = newEffect({context.loader()});
     context.resetCounts();
     prepareAll(*effect, stage.frame());
     CHECK(context.counts().links > 0);
@@ -104,7 +83,7 @@ TEST_CASE("prepare draws nothing, and changes neither state nor targets") {
     context.setMaxTextureSize(item.maxTextureSize);
     CAPTURE(item.name);
     Stage stage(item);
-    const std::unique_ptr<Effect> effect = newEffect(context);
+    const std::unique_ptr<Effect> effect = newEffect({context.loader()});
     stage.fill();
     const tests::TargetContents before = stage.read();
     PrepareStatus prepared;
@@ -130,8 +109,8 @@ TEST_CASE("prepare does not disturb what is kept of a view") {
   for (const char* name : {"detect, first frame", "objects, first frame"}) {
     CAPTURE(name);
     Stage stage(tests::frameCase(name));
-    const std::vector<tests::TargetContents> expected = drawFrames(stage, *newEffect(context));
-    const std::unique_ptr<Effect> effect = newEffect(context);
+    const std::vector<tests::TargetContents> expected = drawFrames(stage, *newEffect({context.loader()}));
+    const std::unique_ptr<Effect> effect = newEffect({context.loader()});
     stage.rewind();
     for (int i = 0; i < kFrames; ++i) {
       prepareAll(*effect, stage.frame());
@@ -145,7 +124,7 @@ TEST_CASE("prepare does not disturb what is kept of a view") {
 TEST_CASE("prepare refuses what render refuses, in the same words") {
   tests::RefusalRig rig;
   const FaultyContext context;
-  const std::unique_ptr<Effect> effect = newEffect(context);
+  const std::unique_ptr<Effect> effect = newEffect({context.loader()});
   const std::vector<std::function<void(Frame&)>> breaks = {
       [](Frame& f) { f.width = 0; },
       [](Frame& f) {
@@ -193,14 +172,14 @@ TEST_CASE("prepare refuses what render refuses, in the same words") {
 TEST_CASE("prepare says when a program does not build, whichever, and builds it when it does") {
   FaultyContext context;
   Stage stage(tests::frameCase("epipolar, two lights"));
-  const std::unique_ptr<Effect> whole = newEffect(context);
+  const std::unique_ptr<Effect> whole = newEffect({context.loader()});
   const tests::TargetContents expected = stage.draw(*whole);
   for (const Fault kind : {Fault::Compile, Fault::Link})
     for (const Times times : {Times::From, Times::Only}) {
       int call = 1;
       for (; call < kMostCalls; ++call) {
         CAPTURE(nameOf(kind), call);
-        const std::unique_ptr<Effect> effect = newEffect(context);
+        const std::unique_ptr<Effect> effect = newEffect({context.loader()});
         context.fail(kind, call, times);
         const PrepareStatus prepared = effect->prepare(stage.frame());
         if (!context.heal()) break;
@@ -219,7 +198,7 @@ TEST_CASE("prepare waits for no compiler that works beside it") {
                            "epipolar, spread", "view 9", "detect, first frame", "objects, first frame"}) {
     CAPTURE(name);
     Stage stage(tests::frameCase(name));
-    const std::unique_ptr<Effect> effect = newEffect(context);
+    const std::unique_ptr<Effect> effect = newEffect({context.loader()});
     context.resetCounts();
     int calls = 0, left = std::numeric_limits<int>::max();
     PrepareStatus prepared;
@@ -242,9 +221,9 @@ TEST_CASE("prepare waits for no compiler that works beside it") {
 TEST_CASE("render draws the right picture before prepare is ready") {
   FaultyContext context;
   Stage stage(tests::frameCase("epipolar, two lights, all targets"));
-  const tests::TargetContents expected = stage.draw(*newEffect(context));
+  const tests::TargetContents expected = stage.draw(*newEffect({context.loader()}));
   context.setCompiling(Compiling::Parallel);
-  const std::unique_ptr<Effect> effect = newEffect(context);
+  const std::unique_ptr<Effect> effect = newEffect({context.loader()});
   CHECK_FALSE(effect->prepare(stage.frame()).ready());
   CHECK(same(stage.draw(*effect), expected));
 }
@@ -254,7 +233,7 @@ TEST_CASE("prepare returns when all is compiled where nothing compiles beside it
   context.setCompiling(Compiling::NoThread);
   for (const char* name : {"epipolar, two lights", "objects, first frame"}) {
     Stage stage(tests::frameCase(name));
-    const std::unique_ptr<Effect> effect = newEffect(context);
+    const std::unique_ptr<Effect> effect = newEffect({context.loader()});
     context.resetCounts();
     CHECK(effect->prepare(stage.frame()).ready());
     CHECK(context.counts().links > 0);
@@ -266,7 +245,7 @@ TEST_CASE("prepare returns when all is compiled where nothing compiles beside it
 
 TEST_CASE("a first sun needs few programs") {
   FaultyContext context;
-  const std::unique_ptr<Effect> effect = newEffect(context);
+  const std::unique_ptr<Effect> effect = newEffect({context.loader()});
   Stage stage(tests::frameCase("epipolar"), 96, 64);
   stage.frame().settings = settingsOf(Profile::High);
   context.resetCounts();

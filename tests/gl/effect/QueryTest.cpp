@@ -26,27 +26,19 @@ const std::map<std::string, void*> kCounted = {{"glGenQueries", address(genQueri
                                                {"glBeginQuery", address(beginQuery)},
                                                {"glGetQueryObjectui64v", address(readQuery)}};
 
-tests::ShaftRig rigOf(Technique technique) {
-  tests::ShaftRig rig(48, 32);
-  rig.addLight(tests::shaftLight(LightKind::Directional), 64);
-  rig.scene.frame.settings.technique = technique;
-  return rig;
-}
-
 } // namespace
 
 TEST_CASE("queries: a steady frame makes none and reads none") {
   for (const PassTiming timing : {PassTiming::Off, PassTiming::TimerQuery})
     for (const Technique technique : {Technique::Exact, Technique::Tree, Technique::Epipolar}) {
       CAPTURE(static_cast<int>(timing), static_cast<int>(technique));
-      tests::ShaftRig rig = rigOf(technique);
+      tests::ShaftRig rig = tests::smallShaftRig(technique);
       const FakeContext fake({}, kCounted);
-      const CreateResult created = Effect::create({fake.loader(), timing});
-      REQUIRE(created.effect);
+      const std::unique_ptr<Effect> created = tests::newEffect({fake.loader(), timing});
       made = begun = read = 0;
       for (int frame = 0; frame < 8; ++frame) {
         if (frame == 4) made = 0;
-        CHECK(created.effect->render(rig.scene.frame));
+        CHECK(created->render(rig.scene.frame));
       }
       CHECK(read == 0);
       CHECK(made == 0);
@@ -55,10 +47,9 @@ TEST_CASE("queries: a steady frame makes none and reads none") {
 }
 
 TEST_CASE("queries: statistics are the same however often they are asked for, and start anew with a frame") {
-  tests::ShaftRig rig = rigOf(Technique::Epipolar);
-  const CreateResult created = Effect::create({tests::testContext().loader(), PassTiming::TimerQuery});
-  REQUIRE(created.effect);
-  Effect& effect = *created.effect;
+  tests::ShaftRig rig = tests::smallShaftRig(Technique::Epipolar);
+  const std::unique_ptr<Effect> created = tests::newEffect({{}, PassTiming::TimerQuery});
+  Effect& effect = *created;
   rig.scene.frame.settings.leastWeight = 1; // so that some pixels are marched by themselves
   std::uint64_t marched = 0, fixedUp = 0;
   for (int frame = 0; frame < 5; ++frame) { // read in some of them only
@@ -80,20 +71,19 @@ TEST_CASE("queries: statistics are the same however often they are asked for, an
 }
 
 TEST_CASE("queries: none is begun while one of the engine's own is under way") {
-  tests::ShaftRig rig = rigOf(Technique::Epipolar);
+  tests::ShaftRig rig = tests::smallShaftRig(Technique::Epipolar);
   const FakeContext fake({}, kCounted);
-  const CreateResult created = fake.create();
-  REQUIRE(created.effect);
+  const std::unique_ptr<Effect> created = tests::newEffect({fake.loader()});
   for (const GLenum kind : {GL_SAMPLES_PASSED, GL_ANY_SAMPLES_PASSED}) {
     GLuint query = 0;
     host::gl().GenQueries(1, &query);
     host::gl().BeginQuery(kind, query);
     begun = 0;
-    CHECK(created.effect->render(rig.scene.frame));
+    CHECK(created->render(rig.scene.frame));
     CHECK(begun == 0);
     host::gl().EndQuery(kind);
     host::gl().DeleteQueries(1, &query);
-    CHECK(created.effect->render(rig.scene.frame));
+    CHECK(created->render(rig.scene.frame));
     CHECK(begun > 0);
   }
 }

@@ -247,16 +247,15 @@ TEST_CASE("fields of reuse that break their rule are refused, field and rule nam
 }
 
 TEST_CASE("what is kept is given up with Changes::Unknown, and what a new size replaces in time") {
-  const CreateResult own = Effect::create({tests::testContext().loader()});
-  REQUIRE(own.effect);
+  const std::unique_ptr<Effect> own = tests::newEffect();
   tests::ShaftRig rig = sunlit(Changes::Detect);
   Frame& frame = rig.scene.frame;
   const int slices = frame.settings.slices;
   const auto bytesOf = [&](Changes changes) {
     frame.reuse.changes = changes;
     for (int i = 0; i < 10; ++i) // two, and eight after which what they do not need is given up
-      rig.scene.render(*own.effect);
-    return own.effect->statistics().bytes;
+      rig.scene.render(*own);
+    return own->statistics().bytes;
   };
   const std::uint64_t without = bytesOf(Changes::Unknown), with = bytesOf(Changes::Detect);
   CHECK(with > without);
@@ -305,13 +304,12 @@ TEST_CASE("a light of several draws keeps its slices while another one's change"
 }
 
 TEST_CASE("a light that is gone leaves nothing behind") {
-  const CreateResult own = Effect::create({tests::testContext().loader()});
-  REQUIRE(own.effect);
+  const std::unique_ptr<Effect> own = tests::newEffect();
   tests::ShaftRig rig = sunlit(Changes::Detect);
   const auto bytes = [&] {
     for (int i = 0; i < 10; ++i) // two, and eight after which what they do not need is given up
-      rig.scene.render(*own.effect);
-    return own.effect->statistics().bytes;
+      rig.scene.render(*own);
+    return own->statistics().bytes;
   };
   const std::uint64_t one = bytes();
   rig.addLight(spot(), 64);

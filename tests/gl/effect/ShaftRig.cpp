@@ -136,6 +136,13 @@ Light shaftLight(LightKind kind) {
   return light;
 }
 
+ShaftRig smallShaftRig(Technique technique) {
+  ShaftRig rig(48, 32);
+  rig.addLight(shaftLight(LightKind::Directional), 64);
+  rig.scene.frame.settings.technique = technique;
+  return rig;
+}
+
 std::vector<ShadowView> shadowViews(const Light& light, int cascades) {
   if (light.kind == LightKind::Point) return shadowViewsOf(light);
   const glm::dvec3 direction = glm::normalize(reference::toVec3(light.direction));

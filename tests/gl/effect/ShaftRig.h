@@ -73,6 +73,9 @@ private:
   std::vector<reference::Image> displaced_;
 };
 
+/// A small one, drawn by a technique, under a sun.
+ShaftRig smallShaftRig(tyndall::Technique technique);
+
 /// The views of a light around the scene: 1 (spot), 6 (point) or `cascades` (directional), the finest first.
 std::vector<tyndall::ShadowView> shadowViews(const tyndall::Light& light, int cascades = 1);
 

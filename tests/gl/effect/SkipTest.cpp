@@ -214,9 +214,8 @@ TEST_CASE("a scalar path serves a medium without colour") {
     tests::ShaftRig rig(48, 32);
     rig.addLight(tests::shaftLight(LightKind::Directional), 64).colour = {5, 4, 3};
     rig.scene.frame.settings.technique = technique;
-    const CreateResult created = Effect::create({tests::testContext().loader(), PassTiming::Off});
-    REQUIRE(created.effect);
-    Effect& effect = *created.effect;
+    const std::unique_ptr<Effect> created = tests::newEffect();
+    Effect& effect = *created;
     const reference::Image grey = rig.scene.render(effect).inscatter;
     const Statistics before = effect.statistics();
     rig.scene.frame.medium.absorption[2] = 1e-9F;
@@ -240,9 +239,8 @@ TEST_CASE("no colour path without glass, and clear glass changes nothing") {
     rig.scene.setShadow(0, clear);
     const GlassMap glass = rig.scene.frame.lights[0].glass;
     rig.scene.frame.lights[0].glass = {};
-    const CreateResult created = Effect::create({tests::testContext().loader(), PassTiming::Off});
-    REQUIRE(created.effect);
-    Effect& effect = *created.effect;
+    const std::unique_ptr<Effect> created = tests::newEffect();
+    Effect& effect = *created;
     const reference::Image plain = rig.scene.render(effect).inscatter;
     const Statistics before = effect.statistics();
     rig.scene.frame.lights[0].glass = glass;

@@ -85,13 +85,7 @@ std::string wrongRows(const tests::GlState& before, const tests::GlState& after)
 }
 
 std::unique_ptr<Effect> newEffect(StateMode state) {
-  Config config;
-  config.loader = tests::testContext().loader();
-  config.state = state;
-  CreateResult created = Effect::create(config);
-  INFO(created.status.message);
-  REQUIRE(created.effect);
-  return std::move(created.effect);
+  return tests::newEffect({tests::testContext().loader(), PassTiming::Off, {}, state});
 }
 
 // A view's frames, each drawn into a poisoned state.

@@ -164,15 +164,14 @@ TEST_CASE("with StateMode::Leave the state is as the header says, whatever it wa
   FullFrame full;
   for (const bool multiBind : {true, false}) {
     const tests::FakeContext fake(multiBind ? std::set<std::string>{} : std::set<std::string>{"glBindTextures"});
-    const CreateResult created = Effect::create({fake.loader(), PassTiming::Off, {}, StateMode::Leave});
-    REQUIRE(created.effect);
+    const std::unique_ptr<Effect> created = tests::newEffect({fake.loader(), PassTiming::Off, {}, StateMode::Leave});
     for (const Technique technique : {Technique::Exact, Technique::Tree, Technique::Epipolar}) {
       CAPTURE(multiBind, static_cast<int>(technique));
       Frame frame = full.rig.frame;
       frame.settings.technique = technique;
       const tests::Poison poison;
       const tests::GlState before = tests::captureGlState();
-      const Status status = created.effect->render(frame);
+      const Status status = created->render(frame);
       const tests::GlState after = tests::captureGlState();
       tests::Poison::lift();
       CHECK(status);
@@ -197,11 +196,10 @@ TEST_CASE("with StateMode::Leave the picture is that of StateMode::Restore, what
   const auto picture = [&] { return host::readColour(full.rig.frame.output.inscatter, 16, 16); };
   full.rig.render();
   const std::vector<float> expected = picture();
-  const CreateResult created = Effect::create({tests::testContext().loader(), PassTiming::Off, {}, StateMode::Leave});
-  REQUIRE(created.effect);
+  const std::unique_ptr<Effect> created = tests::newEffect({{}, PassTiming::Off, {}, StateMode::Leave});
   for (int i = 0; i < 2; ++i) {
     const tests::Poison poison;
-    const Status status = created.effect->render(full.rig.frame);
+    const Status status = created->render(full.rig.frame);
     tests::Poison::lift();
     CHECK(status);
     CHECK(tests::bitEqual(picture(), expected));

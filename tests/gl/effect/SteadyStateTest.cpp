@@ -10,20 +10,10 @@
 using namespace tyndall;
 using tests::FaultyContext;
 using tests::FrameCase;
+using tests::newEffect;
 using tests::Stage;
 
 namespace {
-
-std::unique_ptr<Effect> newEffect(const FaultyContext& context, PassTiming timing = PassTiming::Off,
-                                  StateMode state = StateMode::Restore) {
-  Config config;
-  config.timing = timing;
-  config.state = state;
-  CreateResult created = context.create(config);
-  INFO(created.status.message);
-  REQUIRE(created.effect);
-  return std::move(created.effect);
-}
 
 void render(Effect& effect, const Frame& frame) {
   const Status status = effect.render(frame);
@@ -46,7 +36,7 @@ TEST_CASE("no frame waits for the GPU") {
     for (const FrameCase& item : tests::frameCases()) {
       if (!tests::canDraw(item)) continue;
       context.setMaxTextureSize(item.maxTextureSize);
-      const std::unique_ptr<Effect> effect = newEffect(context, timing);
+      const std::unique_ptr<Effect> effect = newEffect({context.loader(), timing});
       Stage stage(item);
       std::vector<std::string> waits;
       for (int i = 0; i < 5; ++i) {
@@ -70,7 +60,7 @@ TEST_CASE("frames like those before make and delete no GL object") {
     for (const FrameCase& item : tests::frameCases()) {
       if (!tests::canDraw(item)) continue;
       context.setMaxTextureSize(item.maxTextureSize);
-      const std::unique_ptr<Effect> effect = newEffect(context, timing);
+      const std::unique_ptr<Effect> effect = newEffect({context.loader(), timing});
       Stage stage(item);
       for (int i = 0; i < kWarm + kFrames; ++i) {
         if (i == kWarm) context.resetCounts();
@@ -89,7 +79,7 @@ TEST_CASE("views of two sizes in turn make and delete no GL object") {
   FaultyContext context;
   for (const char* name : {"epipolar", "epipolar, two lights, all targets", "tree", "exact", "low rank",
                            "epipolar, spread", "view 9", "detect, a part", "objects, a part"}) {
-    const std::unique_ptr<Effect> effect = newEffect(context);
+    const std::unique_ptr<Effect> effect = newEffect({context.loader()});
     Stage large(tests::frameCase(name), 48, 32), small(tests::frameCase(name));
     large.frame().settings.slices = 48;
     large.frame().settings.samples = 128;
@@ -112,7 +102,7 @@ TEST_CASE("sizes that change in every frame do not pile up textures, and those t
   for (const char* name : {"epipolar", "exact, lamp, all targets", "detect, nothing"}) {
     CAPTURE(name);
     const FrameCase& item = tests::frameCase(name);
-    const std::unique_ptr<Effect> effect = newEffect(context);
+    const std::unique_ptr<Effect> effect = newEffect({context.loader()});
     std::uint64_t most = 0, mostOfOne = 0;
     std::uint64_t view = 0;
     for (int i = 0; i < kFrames; ++i) {
@@ -120,7 +110,7 @@ TEST_CASE("sizes that change in every frame do not pile up textures, and those t
       if (view == 0) view = stage.frame().reuse.eye;
       stage.frame().reuse.eye = view;
       stage.frame().settings.slices = 32 + i;
-      const std::unique_ptr<Effect> alone = newEffect(context);
+      const std::unique_ptr<Effect> alone = newEffect({context.loader()});
       render(*alone, stage.frame());
       mostOfOne = std::max(mostOfOne, alone->statistics().bytes);
       render(*effect, stage.frame());
@@ -129,7 +119,7 @@ TEST_CASE("sizes that change in every frame do not pile up textures, and those t
     CHECK(most <= (kKept + 1) * mostOfOne);
     Stage last(item);
     last.frame().reuse.eye = view;
-    const std::unique_ptr<Effect> alone = newEffect(context);
+    const std::unique_ptr<Effect> alone = newEffect({context.loader()});
     for (int i = 0; i <= kKept; ++i)
       for (Effect* each : {effect.get(), alone.get()})
         render(*each, last.frame());
@@ -144,7 +134,7 @@ TEST_CASE("a frame of one sun takes few GL calls") {
     int calls;
   };
   for (const Limit& limit : {Limit{StateMode::Restore, 500}, Limit{StateMode::Leave, 250}}) {
-    const std::unique_ptr<Effect> effect = newEffect(context, PassTiming::Off, limit.state);
+    const std::unique_ptr<Effect> effect = newEffect({context.loader(), PassTiming::Off, {}, limit.state});
     Stage stage(tests::frameCase("epipolar"), 96, 64);
     stage.frame().settings = settingsOf(Profile::High);
     for (int i = 0; i < 4; ++i) {

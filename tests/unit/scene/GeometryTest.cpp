@@ -207,4 +207,32 @@ TEST_CASE("Bounds are those of the triangles in a pose", "[scene]") {
   CHECK(host::boundsOf(host::Scene{}, {}).high == glm::dvec3(0));
 }
 
+TEST_CASE("A buffer in base64 is read with and without padding, and nothing else for base64", "[scene][gltf]") {
+  const TemporaryFolder folder;
+  const auto load = [&](const std::string& text) {
+    GltfFile file;
+    file.json["buffers"][0] = {{"byteLength", 48}, {"uri", "data:application/octet-stream;base64," + text}};
+    file.json["bufferViews"][0] = {{"buffer", 0}, {"byteLength", 48}};
+    file.json["extensionsUsed"] = {"KHR_mesh_quantization"};
+    file.show({{"attributes", {{"POSITION", file.accessor(0, kUnsignedByte, "VEC3", 16)}}}, {"mode", 0}});
+    const std::string json = file.json.dump();
+    writeBytes(folder / "a.gltf", {json.begin(), json.end()});
+    return host::loadScene(folder / "a.gltf");
+  };
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  for (const char* rest : {"", "AA==", "AA", "AAA=", "AAA", "AAAA"}) {
+    CAPTURE(rest);
+    const auto vertices = load(digits + rest).meshes.at(0).primitives.at(0).vertices;
+    for (std::uint32_t i = 0; i < 16; ++i) {
+      const std::uint32_t bits = (4 * i) << 18 | (4 * i + 1) << 12 | (4 * i + 2) << 6 | (4 * i + 3);
+      CHECK(vertices.at(i).position == glm::vec3(bits >> 16, bits >> 8 & 0xff, bits & 0xff));
+    }
+  }
+  using Catch::Contains;
+  CHECK_THROWS_WITH(load(digits + "A*AA"), Contains("buffers[0].uri") && Contains("base64 does not have"));
+  CHECK_THROWS_WITH(load(digits + "AA==AAAA"), Contains("base64 does not have"));
+  CHECK_THROWS_WITH(load("===="), Contains("no base64 data"));
+  CHECK_THROWS_WITH(load(digits.substr(0, 63)), Contains("there are 47 bytes"));
+}
+
 } // namespace tests
