@@ -91,7 +91,7 @@ Tolerance toleranceOf(const Json& json, Tolerance tolerance, const std::string& 
 
 std::string nameOf(const Json& json, const std::string& where) {
   if (!json.contains("name")) throw host::Error(where + ": lacks a name");
-  const std::string name = textOf(json.at("name"), where + ".name");
+  std::string name = textOf(json.at("name"), where + ".name");
   const auto isLetter = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.'; };
   if (name.empty() || name.size() > kMaxName || !std::all_of(name.begin(), name.end(), isLetter) || name[0] == '.' ||
       name[0] == '-')

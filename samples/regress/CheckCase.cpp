@@ -51,10 +51,8 @@ double rangeOf(const Difference& difference, const Tolerance& tolerance) {
   return std::max(kLeast, std::min(difference.max, std::max(difference.p99 / 2, kBeyond * tolerance.pixel)));
 }
 
-void judgePicture(const Case& one, const Rendering& rendering, const Reference& reference, float exposure,
-                  Result& result) {
-  const HdrPicture &wanted = reference.picture, &got = rendering.picture;
-  result.difference = compare(wanted, got, one.tolerance.pixel, one.options, exposure);
+void judgePicture(const Case& one, const HdrPicture& wanted, const HdrPicture& got, Result& result) {
+  result.difference = compare(wanted, got, one.tolerance.pixel, one.options, exposureOf(wanted, one.options));
   const std::vector<Judgement> judgements = judge(*result.difference, one.tolerance);
   const bool isKept = std::all_of(judgements.begin(), judgements.end(), [](const Judgement& j) { return j.isKept(); });
   result.verdict = isKept ? Verdict::Same : Verdict::Different;
@@ -63,7 +61,8 @@ void judgePicture(const Case& one, const Rendering& rendering, const Reference& 
 }
 
 void writePictures(const Case& one, const Results& results, const Rendering& rendering,
-                   const std::optional<Reference>& reference, float exposure, Result& result) {
+                   const std::optional<Reference>& reference, Result& result) {
+  const float exposure = exposureOf(reference ? reference->picture : rendering.picture, one.options);
   const int width = one.options.width, height = one.options.height;
   const auto display = [&](const char* kind, const HdrPicture& picture) {
     writePng(one, results, result, kind, render::displayed(picture.rgb, one.options, exposure), width, height);
@@ -93,21 +92,18 @@ void checkCase(const Case& one, const Run& run, const Results& results) {
   Result result = failureOf(one, run, "");
   std::optional<Rendering> rendering;
   std::optional<Reference> reference;
-  float exposure = 1;
   try {
     rendering = rendered(one, run);
     result.origin.driver = rendering->driver;
     result.notes = rendering->notes;
-    exposure = exposureOf(rendering->picture, one.options);
     reference = run.references.read(one);
     result.recorded = reference->origin;
     noteDifferentOptions(one, *reference, result);
-    exposure = exposureOf(reference->picture, one.options);
-    judgePicture(one, *rendering, *reference, exposure, result);
+    judgePicture(one, reference->picture, rendering->picture, result);
   } catch (const std::exception& error) {
     result.message = error.what();
   }
-  if (rendering) writePictures(one, results, *rendering, reference, exposure, result);
+  if (rendering) writePictures(one, results, *rendering, reference, result);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   results.write(result);
 }

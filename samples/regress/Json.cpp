@@ -24,7 +24,7 @@ void writeJson(const std::filesystem::path& file, const Json& json) {
 
 std::string textOf(const Json& json, const std::string& where) {
   if (!json.is_string()) throw host::Error(where + ": must be a text");
-  const auto text = json.get<std::string>();
+  auto text = json.get<std::string>();
   if (text.find('\0') != std::string::npos) throw host::Error(where + ": must hold no zero byte");
   return text;
 }

@@ -187,6 +187,7 @@ std::string outputOf(const std::function<void(int descriptor)>& body) {
 std::string outputOf(const std::vector<std::string>& command) {
   return outputOf([&](int descriptor) {
     std::vector<char*> words;
+    words.reserve(command.size() + 1);
     for (const std::string& word : command)
       words.push_back(const_cast<char*>(word.c_str()));
     words.push_back(nullptr);

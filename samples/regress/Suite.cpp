@@ -229,6 +229,7 @@ int record(const Arguments& arguments) {
   if (left.empty()) return status;
   const Run run{references, findMachine(arguments).context, commitOf(arguments)};
   std::vector<std::function<int()>> tasks;
+  tasks.reserve(left.size());
   for (const Case& one : left)
     tasks.push_back(taskOf(one, [&one, &run] {
       for (const std::string& note : recordCase(one, run))
@@ -264,6 +265,7 @@ int check(const Arguments& arguments) {
   if (left.size() < cases.size())
     host::say(fmt::format("{} of {} cases are done already", cases.size() - left.size(), cases.size()));
   std::vector<std::function<int()>> tasks;
+  tasks.reserve(left.size());
   for (const Case& one : left)
     tasks.push_back(taskOf(one, [&] { checkCase(one, run, results); }));
   Progress progress(left.size());
