@@ -3,6 +3,7 @@
 #include "support/Catch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 using namespace tyndall;

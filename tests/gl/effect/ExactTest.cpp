@@ -3,6 +3,7 @@
 #include "support/Catch.h"
 #include "support/EffectRig.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>

@@ -4,6 +4,8 @@
 #include "gl/avsm/AvsmRig.h"
 #include "support/Catch.h"
 
+#include <functional>
+
 using namespace tyndall;
 using host::gl;
 using tests::address;

@@ -4,6 +4,7 @@
 #include "support/Catch.h"
 
 #include <cmath>
+#include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 

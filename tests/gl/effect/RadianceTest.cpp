@@ -6,6 +6,7 @@
 #include "support/Catch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 using namespace tyndall;

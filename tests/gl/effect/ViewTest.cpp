@@ -4,6 +4,7 @@
 #include "gl/ReadBack.h"
 #include "support/Catch.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>

@@ -5,6 +5,8 @@
 #include "support/Catch.h"
 #include "support/TestContext.h"
 
+#include <algorithm>
+
 using host::ClipConvention;
 using tests::addWall;
 using tests::restPose;

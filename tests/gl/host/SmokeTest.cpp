@@ -5,6 +5,7 @@
 #include "gl/host/SmallScenes.h"
 #include "support/Catch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 

@@ -2,6 +2,8 @@
 #include "optics/MeshBox.h"
 #include "support/Catch.h"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 

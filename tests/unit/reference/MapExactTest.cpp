@@ -1,6 +1,7 @@
 #include "TestScenes.h"
 #include "support/Catch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>

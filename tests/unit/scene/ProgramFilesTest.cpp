@@ -2,6 +2,7 @@
 #include "GltfFile.h"
 #include "support/Catch.h"
 
+#include <chrono>
 #include <cstdlib>
 #include <scene/ProgramFiles.h>
 #include <string>

@@ -1,6 +1,7 @@
 #include "ViewScenes.h"
 #include "support/Catch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <scene/Advice.h>
 #include <scene/ShadowViews.h>

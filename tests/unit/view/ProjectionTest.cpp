@@ -1,5 +1,6 @@
 #include "support/Catch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>

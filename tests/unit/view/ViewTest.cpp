@@ -1,6 +1,7 @@
 #include "ViewScenes.h"
 #include "support/Catch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <scene/Error.h>

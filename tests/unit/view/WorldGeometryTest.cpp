@@ -1,6 +1,8 @@
 #include "ViewScenes.h"
 #include "support/Catch.h"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <scene/Projection.h>
 #include <scene/WorldGeometry.h>
