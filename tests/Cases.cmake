@@ -78,7 +78,7 @@ foreach(case IN LISTS all)
     set(cost 1000)
   endif()
   restore(name "${case}")
-  string(REGEX REPLACE "([][,\\\\])" "\\\\\\1" argument "${name}")
+  string(REGEX REPLACE "(^-|[][,\\\\])" "\\\\\\1" argument "${name}") # what begins with "-" is no option
   string(APPEND script "add_test([==[${PREFIX}.${name}]==] [==[${EXECUTABLE}]==] [==[${argument}]==]${options})\n"
     "set_tests_properties([==[${PREFIX}.${name}]==] PROPERTIES TIMEOUT ${TIMEOUT} COST ${cost} SKIP_RETURN_CODE 77 "
     "LABELS [==[${labels}]==] ENVIRONMENT [==[${ENVIRONMENT}]==])\n")

@@ -40,7 +40,7 @@ std::string quoted(const std::string& word) {
 
 /// A case's name as Catch takes it on the command line, where some characters select by more than a name.
 std::string escaped(const std::string& name) {
-  std::string result;
+  std::string result = name.rfind('-', 0) == 0 ? "\\" : ""; // or it would be an option
   for (const char c : name) {
     if (std::string("[],\\").find(c) != std::string::npos) result += '\\';
     result += c;

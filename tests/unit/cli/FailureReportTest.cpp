@@ -26,7 +26,7 @@ std::string between(const std::string& text, const std::string& begin, const std
 
 } // namespace
 
-TEST_CASE("fails: pictures [differ], by 'one' value; twice", "[.fails]") {
+TEST_CASE("--fails: pictures [differ], by 'one' value; twice", "[.fails]") {
   reference::Image image = plain(1);
   image.set(3, 1, {2, 1, 1});
   CHECK(reference::compare(image, image).max == 0);

@@ -118,5 +118,5 @@ TEST_CASE("options of shares that make no sense are refused in one line") {
   checkFails(folder, "--resume", "--resume requires --out");
   checkFails(folder, "--missing", "--missing requires --out");
   checkFails(folder, "--out a.png --resume --stats s.json", "--resume excludes --stats");
-  checkFails(folder, frames + "--detect-changes --share 1/2", "--detect-changes excludes --share");
+  checkFails(folder, frames + "--detect-changes --share 1/2", "--share excludes --detect-changes");
 }
