@@ -37,7 +37,7 @@ void checkCompile(const std::vector<tests::PublicShader>& shaders) {
 
 } // namespace
 
-TEST_CASE("avsm: every variant of the passes builds") {
+TEST_CASE("avsm: every variant of the passes builds", "[slow]") {
   if (!tests::hasAvsm()) return;
   for (const CurveReduction reduction : {CurveReduction::WholeCurve, CurveReduction::Sorted, CurveReduction::InOrder})
     for (const int nodes : {4, 8, 12, 16})

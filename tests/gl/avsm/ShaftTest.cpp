@@ -100,7 +100,7 @@ void checkAll(Scene& scene) {
 
 } // namespace
 
-TEST_CASE("avsm shafts: all lights, packed or not, with glass or without") {
+TEST_CASE("avsm shafts: all lights, packed or not, with glass or without", "[sweep]") {
   if (!tests::hasAvsm()) return;
   for (const LightKind kind : kKinds)
     for (const bool glass : {false, true}) {
@@ -110,7 +110,7 @@ TEST_CASE("avsm shafts: all lights, packed or not, with glass or without") {
     }
 }
 
-TEST_CASE("avsm shafts: filtered shadows, cascades, coloured media and every setting of rows") {
+TEST_CASE("avsm shafts: filtered shadows, cascades, coloured media and every setting of rows", "[sweep]") {
   if (!tests::hasAvsm()) return;
   const std::vector<std::pair<const char*, std::function<void(Frame&)>>> changes = {
       {"bilinear", [](Frame& f) { f.settings.shadowFilter = ShadowFilter::Bilinear; }},
@@ -139,7 +139,7 @@ TEST_CASE("avsm shafts: filtered shadows, cascades, coloured media and every set
     CHECK(errorOf(scene.picture(technique), exact) < 0.04);
 }
 
-TEST_CASE("avsm shafts: curves of eight nodes are near to all that was captured") {
+TEST_CASE("avsm shafts: curves of eight nodes are near to all that was captured", "[slow]") {
   if (!tests::hasAvsm()) return;
   for (const LightKind kind : kKinds) {
     Scene scene(tests::shaftLight(kind));

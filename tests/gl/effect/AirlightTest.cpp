@@ -123,7 +123,7 @@ const std::vector<Constituent> kConstituents = {{{}, Phase::Isotropic, 0},
 
 } // namespace
 
-TEST_CASE("unshadowed directional light equals its closed form") {
+TEST_CASE("unshadowed directional light equals its closed form", "[sweep]") {
   for (const Constituent& c : kConstituents)
     for (const Vec3& direction : {Vec3{0, -1, 0}, Vec3{0.3, -0.2, 1}, Vec3{-0.1, -0.05, -1}, Vec3{-0.35, -0.13, 3}}) {
       Sweep sweep{{}, c};
@@ -144,7 +144,7 @@ TEST_CASE("a directional light in a bounded medium equals its closed form") {
   }
 }
 
-TEST_CASE("unshadowed point light equals adaptive quadrature") {
+TEST_CASE("unshadowed point light equals adaptive quadrature", "[sweep]") {
   for (const Constituent& c : kConstituents)
     for (const Vec3& position :
          {Vec3{1, 3, 1}, Vec3{-20, 5, -300}, Vec3{1.05, 2.01, 2.9}, Vec3{0.5, 1.5, 30}, Vec3{2e4, 1e4, -7e4}}) {
@@ -156,7 +156,7 @@ TEST_CASE("unshadowed point light equals adaptive quadrature") {
     }
 }
 
-TEST_CASE("unshadowed spot light equals adaptive quadrature") {
+TEST_CASE("unshadowed spot light equals adaptive quadrature", "[sweep]") {
   for (const Constituent& c : kConstituents)
     for (const double outer : {0.05, 0.6, 1.5707963267948966})
       for (const double inner : {0.0, 0.7, 1.0}) {

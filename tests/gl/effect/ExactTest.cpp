@@ -164,7 +164,7 @@ void checkAgainstReference(const Setup& setup) {
 
 } // namespace
 
-TEST_CASE("exact equals map-exact for every light, filter and convention") {
+TEST_CASE("exact equals map-exact for every light, filter and convention", "[sweep]") {
   for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot})
     for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear})
       for (const bool glass : {false, true})
@@ -183,7 +183,7 @@ TEST_CASE("exact equals map-exact for every light, filter and convention") {
           }
 }
 
-TEST_CASE("exact equals map-exact where the light is dark outside the views") {
+TEST_CASE("exact equals map-exact where the light is dark outside the views", "[sweep]") {
   for (const LightKind kind : {LightKind::Directional, LightKind::Spot}) {
     Setup setup;
     setup.kind = kind;
@@ -193,7 +193,7 @@ TEST_CASE("exact equals map-exact where the light is dark outside the views") {
   }
 }
 
-TEST_CASE("exact equals map-exact with cascades, maps of one layer and one texel") {
+TEST_CASE("exact equals map-exact with cascades, maps of one layer and one texel", "[sweep]") {
   Setup cascades;
   cascades.views = 4;
   checkAgainstReference(cascades);
@@ -215,7 +215,7 @@ TEST_CASE("exact equals map-exact with cascades, maps of one layer and one texel
   }
 }
 
-TEST_CASE("exact equals map-exact in a shadow map of 1024 x 1024") {
+TEST_CASE("exact equals map-exact in a shadow map of 1024 x 1024", "[sweep]") {
   for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot}) {
     Setup setup;
     setup.kind = kind;

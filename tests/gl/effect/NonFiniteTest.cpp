@@ -115,7 +115,7 @@ TEST_CASE("NaN and Inf in a shadow or glass map stay finite in the picture") {
       }
 }
 
-TEST_CASE("a shadow texel or pane that is not a number is none, by every technique") {
+TEST_CASE("a shadow texel or pane that is not a number is none, by every technique", "[sweep]") {
   for (const LightKind kind : {LightKind::Directional, LightKind::Spot, LightKind::Point})
     for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear})
       for (const bool glass : {false, true}) {
@@ -135,7 +135,7 @@ TEST_CASE("a shadow texel or pane that is not a number is none, by every techniq
       }
 }
 
-TEST_CASE("exact equals map-exact with texels and panes that are not numbers") {
+TEST_CASE("exact equals map-exact with texels and panes that are not numbers", "[sweep]") {
   for (const LightKind kind : {LightKind::Directional, LightKind::Spot}) {
     CAPTURE(static_cast<int>(kind));
     tests::SceneRig rig;

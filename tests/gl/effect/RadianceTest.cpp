@@ -60,7 +60,7 @@ struct Ceiling {
 
 } // namespace
 
-TEST_CASE("inscatter scales with the light from 1e-8 to 1e7, whatever medium, glass and technique") {
+TEST_CASE("inscatter scales with the light from 1e-8 to 1e7, whatever medium, glass and technique", "[sweep]") {
   const Rgb colour = {1, 0.7F, 0};
   for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot})
     for (const Medium& medium : {kGrey, kColoured, kTinted})

@@ -7,7 +7,7 @@
 using namespace tyndall;
 using namespace tests::reuse;
 
-TEST_CASE("reused frames are the frames in full, by every light, filter and way to tell what moved") {
+TEST_CASE("reused frames are the frames in full, by every light, filter and way to tell what moved", "[sweep]") {
   struct Case {
     Light light;
     bool glass;
