@@ -66,7 +66,8 @@ fi
 copy_tree
 
 # shellcheck disable=SC2016 # the inner shell expands them
-enter='mount -t proc proc "$1/proc" && mount -t tmpfs -o mode=1777 tmpfs "$1/dev/shm" && exec chroot "$1" \
+enter='mount -t proc proc "$1/proc" && mount -t devpts devpts "$1/dev/pts" && \
+  mount -t tmpfs -o mode=1777 tmpfs "$1/dev/shm" && exec chroot "$1" \
   env -i HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin sh -c "cd /tyndall && $2"'
 status=0 times=''
 for command in "$@"; do

@@ -201,7 +201,7 @@ const std::vector<FrameCase>& frameCases() {
   return all;
 }
 
-const FrameCase& frameCase(const std::string& name) {
+const FrameCase& frameCase(std::string_view name) {
   const auto found =
       std::find_if(frameCases().begin(), frameCases().end(), [&](const FrameCase& c) { return c.name == name; });
   REQUIRE(found != frameCases().end());

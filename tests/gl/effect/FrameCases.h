@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tests {
@@ -36,7 +37,7 @@ struct FrameCase {
 const std::vector<FrameCase>& frameCases();
 
 /// The one of that name.
-const FrameCase& frameCase(const std::string& name);
+const FrameCase& frameCase(std::string_view name);
 
 /// True if the context can draw it: curves need OpenGL 4.3.
 bool canDraw(const FrameCase& frameCase);
