@@ -100,7 +100,7 @@ void checkAll(Scene& scene) {
 
 } // namespace
 
-TEST_CASE("avsm shafts: all lights, packed or not, with glass or without", "[sweep]") {
+TEST_CASE("avsm shafts: all lights, packed or not, with glass or without", "[sweep][slow]") {
   if (!tests::hasAvsm()) return;
   for (const LightKind kind : kKinds)
     for (const bool glass : {false, true}) {
@@ -110,7 +110,7 @@ TEST_CASE("avsm shafts: all lights, packed or not, with glass or without", "[swe
     }
 }
 
-TEST_CASE("avsm shafts: filtered shadows, cascades, coloured media and every setting of rows", "[sweep]") {
+TEST_CASE("avsm shafts: filtered shadows, cascades, coloured media and every setting of rows", "[sweep][slow]") {
   if (!tests::hasAvsm()) return;
   const std::vector<std::pair<const char*, std::function<void(Frame&)>>> changes = {
       {"bilinear", [](Frame& f) { f.settings.shadowFilter = ShadowFilter::Bilinear; }},
