@@ -1,11 +1,12 @@
 #include "Arguments.h"
 
-#include <CLI/CLI.hpp>
-#include <render/CommandLine.h>
+#include <render/OptionRules.h>
 
 namespace regress {
 
 namespace {
+
+constexpr int kMaxShares = 1000000;
 
 constexpr const char* kFooter = R"(
 The list
@@ -21,38 +22,31 @@ Files
 Exit status
   0: all are the same; 1: some differ, or could not be judged; 2: wrong usage, or something cannot be read or written.)";
 
-struct Typed {
-  std::string list, references, out, scenes, only, share, context, commit, jobs = "1", timeout = "600";
-};
-
-void addCommon(CLI::App& app, Typed& typed) {
-  app.add_option("LIST", typed.list, "the cases, a JSON file")->required();
-  app.add_option("--references", typed.references, "the folder of the references")->type_name("DIR")->required();
-  app.add_option("--scenes", typed.scenes, "where relative names of scenes start (default: the list's folder)")
+void addCommon(CLI::App& app, Arguments& arguments) {
+  app.add_option("LIST", arguments.list, "the cases, a JSON file")->required();
+  app.add_option("--references", arguments.references, "the folder of the references")->type_name("DIR")->required();
+  app.add_option("--scenes", arguments.scenes, "where relative names of scenes start (default: the list's folder)")
       ->type_name("DIR");
-  app.add_option("--only", typed.only, "cases of this name, or whose whole name this regular expression matches")
+  app.add_option("--only", arguments.only, "cases of this name, or whose whole name this regular expression matches")
       ->type_name("NAME");
 }
 
-void addRendering(CLI::App& app, Typed& typed) {
-  app.add_option("--share", typed.share, "every N-th case from the K-th on, for one machine of N")->type_name("K/N");
-  app.add_option("--jobs", typed.jobs, "cases at a time (default 1)")->type_name("N");
-  app.add_option("--timeout", typed.timeout, "seconds after which a case has failed (default 600)")->type_name("S");
-  app.add_option("--context", typed.context, "osmesa, egl or glfw (default: osmesa, or egl where its library is not)")
-      ->type_name("NAME");
-  app.add_option("--commit", typed.commit, "the name of what is tested (default: git's for the list's folder)")
+void addRendering(CLI::App& app, Arguments& arguments) {
+  app.add_option_function<std::string>(
+         "--share", [&](const std::string& text) { arguments.share = render::parseShare("--share", text, kMaxShares); },
+         "every N-th case from the K-th on, for one machine of N")
+      ->type_name("K/N");
+  app.add_option("--jobs", arguments.jobs, "cases at a time (default 1)")->check(CLI::Range(1, 256));
+  app.add_option("--timeout", arguments.timeoutSeconds, "seconds after which a case has failed (default 600)")
+      ->check(CLI::Range(1, 86400));
+  render::chooseFrom(render::kContextNames, app.add_option("--context", arguments.context,
+                                                           "GL's (default: osmesa, or egl where its library is not)"));
+  app.add_option("--commit", arguments.commit, "the name of what is tested (default: git's for the list's folder)")
       ->type_name("TEXT");
 }
 
-void addOut(CLI::App& app, Typed& typed) {
-  app.add_option("--out", typed.out, "the folder of results, pictures and report")->type_name("DIR")->required();
-}
-
-/// An option given as "" must not pass for one left out.
-void refuseEmpty(const CLI::App& command) {
-  for (const CLI::Option* option : command.get_options())
-    for (const std::string& value : option->results())
-      if (value.empty()) render::failUsage(option->get_name(), "\"\"", "must not be empty");
+void addOut(CLI::App& app, Arguments& arguments) {
+  app.add_option("--out", arguments.out, "the folder of results, pictures and report")->type_name("DIR")->required();
 }
 
 /// Said here: CLI11 would only miss a command.
@@ -62,26 +56,10 @@ void requireCommand(int argc, const char* const* argv) {
   render::failUsage("command", word, "must be record, check or report");
 }
 
-Arguments fromTyped(const Typed& typed) {
-  Arguments arguments;
-  arguments.list = typed.list;
-  arguments.references = typed.references;
-  arguments.out = typed.out;
-  arguments.scenes = typed.scenes.empty() ? arguments.list.parent_path() : std::filesystem::path(typed.scenes);
-  if (!typed.only.empty()) arguments.only = typed.only;
-  if (!typed.share.empty()) arguments.share = parseShare(typed.share);
-  if (!typed.context.empty()) arguments.context = render::parseContext("--context", typed.context);
-  if (!typed.commit.empty()) arguments.commit = typed.commit;
-  arguments.jobs = render::parseInt("--jobs", typed.jobs, 1, 256);
-  arguments.timeoutSeconds = static_cast<unsigned>(render::parseInt("--timeout", typed.timeout, 1, 86400));
-  return arguments;
-}
-
 } // namespace
 
 Arguments parseCommand(int argc, const char* const* argv) {
-  Typed typed;
-  bool force = false, resume = false;
+  Arguments arguments;
   CLI::App app("Renders scenes again and compares them with references.", "tyndall-regress");
   app.footer(kFooter);
   app.set_version_flag("--version", "tyndall-regress " TYNDALL_VERSION);
@@ -90,23 +68,19 @@ Arguments parseCommand(int argc, const char* const* argv) {
   CLI::App* check = app.add_subcommand("check", "renders all cases again and compares them with their references");
   CLI::App* report = app.add_subcommand("report", "assembles the report from results of check --share");
   for (CLI::App* command : {record, check, report})
-    addCommon(*command, typed);
+    addCommon(*command, arguments);
   for (CLI::App* command : {check, report})
-    addOut(*command, typed);
+    addOut(*command, arguments);
   for (CLI::App* command : {record, check})
-    addRendering(*command, typed);
-  record->add_flag("--force", force, "replaces the references that there are");
-  check->add_flag("--force", force, "replaces the results and the report of an earlier run");
-  check->add_flag("--resume", resume, "goes on with an earlier run: what is done and not out of date is kept");
+    addRendering(*command, arguments);
+  record->add_flag("--force", arguments.force, "replaces the references that there are");
+  auto* force = check->add_flag("--force", arguments.force, "replaces the results and the report of an earlier run");
+  check->add_flag("--resume", arguments.resume, "goes on with an earlier run: what is done and not out of date is kept")
+      ->excludes(force);
   requireCommand(argc, argv);
   render::parseArguments(app, argc, argv);
-  for (const CLI::App* command : app.get_subcommands())
-    refuseEmpty(*command);
-  Arguments arguments = fromTyped(typed);
   arguments.command = record->parsed() ? Command::Record : check->parsed() ? Command::Check : Command::Report;
-  arguments.force = force;
-  arguments.resume = resume;
-  if (force && resume) throw render::UsageError("--force: cannot go with --resume");
+  if (arguments.scenes.empty()) arguments.scenes = arguments.list.parent_path();
   return arguments;
 }
 

@@ -19,11 +19,11 @@ struct Arguments {
   std::filesystem::path out;    ///< of check and report
   std::filesystem::path scenes; ///< where relative names of scenes start
   std::optional<std::string> only;
-  std::optional<Share> share;
+  std::optional<render::Share> share;
   std::optional<host::ContextKind> context; ///< none: OSMesa, or EGL where it is not
   std::optional<std::string> commit;        ///< none: what git says
   int jobs = 1;
-  unsigned timeoutSeconds = 600; ///< of a case
+  int timeoutSeconds = 600; ///< of a case
   bool force = false;
   bool resume = false;
 };

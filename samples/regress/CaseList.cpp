@@ -181,19 +181,11 @@ std::vector<Case> only(const std::vector<Case>& cases, const std::string& patter
   render::failUsage("--only", pattern, "no case of the list has this name; there are " + names);
 }
 
-std::vector<Case> shareOf(const std::vector<Case>& cases, const Share& share) {
+std::vector<Case> shareOf(const std::vector<Case>& cases, const render::Share& share) {
   std::vector<Case> chosen;
   for (std::size_t i = share.index - 1; i < cases.size(); i += share.count)
     chosen.push_back(cases[i]);
   return chosen;
-}
-
-Share parseShare(const std::string& text) {
-  const std::vector<std::string> parts = render::split(text, '/');
-  const auto index = render::parseWhole<int>(parts.front()), count = render::parseWhole<int>(parts.back());
-  if (parts.size() != 2 || !index || !count || *index < 1 || *index > *count)
-    render::failUsage("--share", text, "must be K/N, 1 <= K <= N");
-  return {*index, *count};
 }
 
 } // namespace regress

@@ -33,14 +33,6 @@ std::vector<Case> readCases(const std::filesystem::path& list, const std::filesy
 /// Those whose whole name matches the regular expression. Throws render::UsageError if there is none.
 std::vector<Case> only(const std::vector<Case>& cases, const std::string& pattern);
 
-/// Every `count`-th case, from the `index`-th on, which counts from 1.
-struct Share {
-  int index = 1;
-  int count = 1;
-};
-std::vector<Case> shareOf(const std::vector<Case>& cases, const Share& share);
-
-/// "K/N". Throws render::UsageError.
-Share parseShare(const std::string& text);
+std::vector<Case> shareOf(const std::vector<Case>& cases, const render::Share& share);
 
 } // namespace regress

@@ -74,6 +74,14 @@ std::pair<int, int> parseSize(const std::string& option, const std::string& valu
   return {*width, *height};
 }
 
+Share parseShare(const std::string& option, const std::string& value, int most) {
+  const std::vector<std::string> parts = split(value, '/');
+  const auto index = parseWhole<int>(parts.front()), count = parseWhole<int>(parts.back());
+  if (parts.size() != 2 || !index || !count || *index < 1 || *count < *index || *count > most)
+    failUsage(option, value, fmt::format("must be K/N, 1 <= K <= N <= {}", most));
+  return {*index, *count};
+}
+
 host::ContextKind parseContext(const std::string& option, const std::string& value) {
   for (const auto& [name, kind] : kContextNames)
     if (name == value) return kind;
@@ -116,8 +124,11 @@ int runCommand(const char* name, const std::function<int()>& body) {
 }
 
 void parseArguments(CLI::App& app, int argc, const char* const* argv) {
-  for (CLI::Option* option : app.get_options())
-    makeStrict(*option);
+  std::vector<CLI::App*> parts = app.get_subcommands({});
+  parts.push_back(&app);
+  for (CLI::App* part : parts)
+    for (CLI::Option* option : part->get_options())
+      makeStrict(*option);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -47,6 +47,15 @@ int parseInt(const std::string& option, const std::string& value, int low, int h
 /// WIDTHxHEIGHT, each from `least` to tyndall::kMaxImageSize. Throws UsageError.
 std::pair<int, int> parseSize(const std::string& option, const std::string& value, int least);
 
+/// One run's part of many, of what is counted from 1: every `count`-th, from the `index`-th on.
+struct Share {
+  int index = 1;
+  int count = 1;
+};
+
+/// K/N, 1 <= K <= N <= `most`. Throws UsageError.
+Share parseShare(const std::string& option, const std::string& value, int most);
+
 /// Throws UsageError.
 host::ContextKind parseContext(const std::string& option, const std::string& value);
 
@@ -60,8 +69,9 @@ std::vector<std::string> splitList(const std::string& option, const std::string&
 /// Answer is printed.
 int runCommand(const char* name, const std::function<int()>& body);
 
-/// Fills in what `app` describes. Throws UsageError or Answer. Stricter than CLI11: an option given as "" must not pass
-/// for one left out, whole numbers are decimal (neither 0x10 nor 1'000, and 010 is ten), others are finite.
+/// Fills in what `app` and its subcommands describe. Throws UsageError or Answer. Stricter than CLI11: an option given
+/// as "" must not pass for one left out, whole numbers are decimal (neither 0x10 nor 1'000, and 010 is ten), others are
+/// finite.
 void parseArguments(CLI::App& app, int argc, const char* const* argv);
 
 } // namespace render

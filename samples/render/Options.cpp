@@ -104,16 +104,6 @@ FrameRange parseFrames(const std::string& value) {
   return {*first, *last};
 }
 
-Share parseShare(const std::string& value) {
-  const std::vector<std::string> parts = split(value, '/');
-  const std::string rule = fmt::format("must be K/N, 1 <= K <= N <= {}", kMaxFrame + 1);
-  if (parts.size() != 2) failUsage("--share", value, rule);
-  const auto index = parseWhole<int>(parts[0]);
-  const auto count = parseWhole<int>(parts[1]);
-  if (!index || !count || *index < 1 || *count < *index || *count > kMaxFrame + 1) failUsage("--share", value, rule);
-  return {*index, *count};
-}
-
 void checkOutputs(const Options& options) {
   if (options.out.size() > 2) failUsage("--out", options.out.back(), "may be given twice at most");
   for (const std::filesystem::path& file : options.out) {
@@ -220,11 +210,12 @@ void addFrames(CLI::App& app, Options& options, Given& given) {
                         "--frames", [&](const std::string& text) { options.frames = parseFrames(text); },
                         "frames of the animation, at 24 a second")
                      ->type_name("A-B");
-  auto* share = app.add_option_function<std::string>(
-                       "--share", [&](const std::string& text) { options.share = parseShare(text); },
-                       "of these frames only every N-th from the K-th on, each drawn in full")
-                    ->type_name("K/N")
-                    ->needs(frames);
+  auto* share =
+      app.add_option_function<std::string>(
+             "--share", [&](const std::string& text) { options.share = parseShare("--share", text, kMaxFrame + 1); },
+             "of these frames only every N-th from the K-th on, each drawn in full")
+          ->type_name("K/N")
+          ->needs(frames);
   auto* resume = app.add_flag("--resume", options.resume,
                               "leave frames whose pictures are whole as they are, draw the others in full");
   auto* missing = app.add_flag("--missing", options.missing,

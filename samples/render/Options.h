@@ -1,6 +1,8 @@
 // The command line of tyndall-render.
 #pragma once
 
+#include "CommandLine.h"
+
 #include <filesystem>
 #include <gl/Context.h>
 #include <glm/glm.hpp>
@@ -26,12 +28,6 @@ struct FrameRange {
   int first = 0;
   int last = 0;
   int count() const { return last - first + 1; }
-};
-
-/// Every `count`-th frame, from the `index`-th on; counted from 1.
-struct Share {
-  int index = 1;
-  int count = 1;
 };
 
 struct Options {

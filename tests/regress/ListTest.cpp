@@ -84,7 +84,7 @@ TEST_CASE("shares hold each case once") {
       read(listOf(R"({"name": "a", "scene": "s"}, {"name": "b", "scene": "s"}, {"name": "c", "scene": "s"})"));
   const auto names = [&](const char* share) {
     std::string all;
-    for (const regress::Case& one : regress::shareOf(cases, regress::parseShare(share)))
+    for (const regress::Case& one : regress::shareOf(cases, render::parseShare("--share", share, 1000)))
       all += one.name;
     return all;
   };
@@ -93,7 +93,7 @@ TEST_CASE("shares hold each case once") {
   CHECK(names("2/2") == "b");
   CHECK(names("4/4").empty());
   for (const char* share : {"0/2", "3/2", "1", "1/2/3", "a/b", "1/0", "-1/2", "/"})
-    CHECK_THROWS_AS(regress::parseShare(share), render::UsageError);
+    CHECK_THROWS_AS(render::parseShare("--share", share, 1000), render::UsageError);
   CHECK(regress::only(cases, "a|c").size() == 2);
   CHECK(regress::only(cases, ".*").size() == 3);
 }
