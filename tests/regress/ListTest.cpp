@@ -67,7 +67,7 @@ TEST_CASE("a mistake in the list is a line with file, case, field and rule") {
   const auto one = [](const std::string& more) { return listOf(R"({"name": "a", "scene": "a.glb", )" + more + "}"); };
   checkRefused(one(R"("size": 1)"), "cases[0]: \"size\" is unknown; known are name, scene, options, tolerance");
   checkRefused(one(R"("options": 1)"), "case a: options: must be an object, or a list of words");
-  checkRefused(one(R"("options": {"slices": 0})"), "case a: --slices 0: must be");
+  checkRefused(one(R"("options": {"slices": 0})"), "case a: --slices: Value 0 not in range");
   checkRefused(one(R"("options": {"slice": 1})"), "case a: ");
   checkRefused(one(R"("options": {"slices": [1]})"), "case a: options.slices: must be a text, a number, true or false");
   checkRefused(one(R"("options": {"out": "x.png"})"), "case a: options: --out is not an option of a case");
