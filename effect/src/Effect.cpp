@@ -134,8 +134,7 @@ std::vector<FramePlan> Effect::State::planAhead(const Frame& frame, const FrameT
   };
   for (const bool sumsApart : {false, true})
     if (!sumsApart || frame.lights.size() > 1)
-      plan(
-          frame, nullptr, [](FramePlanner& planner) { planner.plan(); }, sumsApart);
+      plan(frame, nullptr, [](FramePlanner& planner) { planner.plan(); }, sumsApart);
   if (frame.reuse.changes == Changes::Unknown) return plans;
   KeptEye eye(gl, framebuffers, frame.reuse.eye);
   plan(frame, &eye, [](FramePlanner& planner) { planner.plan(); });

@@ -44,7 +44,7 @@ std::string reasonOf(int error) { return std::generic_category().message(error);
 /// Throws Error with the reason alone if the file, which may not exist yet, is not one to be written.
 void checkTarget(const std::filesystem::path& target) {
   const std::filesystem::path folder = folderOf(target);
-  struct stat status {};
+  struct stat status{};
   if (target.filename().empty() || std::filesystem::is_directory(target)) throw Error("it is a folder");
   if (!std::filesystem::is_directory(folder)) throw Error("its folder does not exist");
   if (stat(target.c_str(), &status) != 0) {
@@ -64,7 +64,7 @@ public:
   explicit TemporaryFile(const std::filesystem::path& target) {
     const int descriptor = create(target.parent_path());
     if (descriptor < 0) throw Error(reasonOf(errno));
-    struct stat status {};
+    struct stat status{};
     if (stat(target.c_str(), &status) == 0) {
       // Only root can give a file away: where that fails, it is the writer's.
       if (fchown(descriptor, status.st_uid, status.st_gid) != 0) errno = 0;
@@ -155,7 +155,7 @@ std::filesystem::path targetOf(const std::filesystem::path& file) {
 }
 
 std::string identityOf(const std::filesystem::path& file) {
-  struct stat status {};
+  struct stat status{};
   if (stat(file.c_str(), &status) == 0) return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
   try {
     const std::filesystem::path target = targetOf(file);
@@ -210,8 +210,7 @@ void removeUnfinishedOnSignals() {
 std::string printable(std::string_view text) {
   constexpr std::size_t kMaxLength = 300;
   std::string line(text.substr(0, kMaxLength));
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  std::replace_if(line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
   if (line.size() < text.size()) line += "...";
   return line;
 }

@@ -55,7 +55,7 @@ class Interruptible {
 public:
   Interruptible() {
     interrupted = 0;
-    struct sigaction action {};
+    struct sigaction action{};
     action.sa_handler = endChildren; // without SA_RESTART: waitpid() returns
     for (std::size_t i = 0; i < std::size(kEndingSignals); ++i) {
       sigaction(kEndingSignals[i], nullptr, &before_[i]);

@@ -200,8 +200,7 @@ void addShadows(CLI::App& app, Options& options) {
       ->check(CLI::Range(1, 4096));
   app.add_option("--avsm-nodes", options.avsmNodes, "nodes of its curves (default 8)")
       ->check(CLI::IsMember({4, 8, 12, 16}));
-  app.add_flag_callback(
-      "--no-avsm", [&] { options.avsm = false; }, "smoke and strands cast no shadows");
+  app.add_flag_callback("--no-avsm", [&] { options.avsm = false; }, "smoke and strands cast no shadows");
   app.add_flag("--reversed-depth", options.reversedDepth, "camera and shadow depth fall from 1 to 0");
 }
 

@@ -249,15 +249,13 @@ std::optional<LowRankTable> makeLowRank(const Frame& frame, const Light& light, 
       }
   }
   if (light.kind != LightKind::Spot) {
-    addSet(
-        kernel, lights, 0, [](double) { return 1.0; }, table);
+    addSet(kernel, lights, 0, [](double) { return 1.0; }, table);
     return table;
   }
   for (int slice = 0; slice < slices.slices; ++slice) {
     const glm::dvec4 ends(slices.texels[static_cast<std::size_t>(slice)]);
     const dvec3 across = kernel.acrossAt({ends.z, ends.w});
-    addSet(
-        kernel, lights, slice, [&](double gamma) { return kernel.falloff(across, gamma); }, table);
+    addSet(kernel, lights, slice, [&](double gamma) { return kernel.falloff(across, gamma); }, table);
   }
   return table;
 }

@@ -62,7 +62,7 @@ dvec2 directionAt(const dvec3& epipole, const dvec2& p) {
 // Which sides lines leave the image through; the direction's component across a side is the same all along it.
 std::array<bool, 4> exitSides(const dvec3& epipole, const Border& border) {
   const dvec2 low = directionAt(epipole, border.low), high = directionAt(epipole, border.high);
-  return {low.y<0, high.x> 0, high.y > 0, low.x < 0};
+  return {low.y < 0, high.x > 0, high.y > 0, low.x < 0};
 }
 
 // The entry of the line that leaves at `exit`: the epipole if it lies in the image, else the point where it comes in.

@@ -50,7 +50,7 @@ EpipolarLines::EpipolarLines(const tyndall::Frame& frame, const tyndall::Light& 
   const dvec2 low(0.5), size = dvec2(frame.width, frame.height) - 1.0, high = low + size;
   const double side = e.z < 0 ? -1 : 1;
   const dvec2 atLow = side * (e.z * low - dvec2(e)), atHigh = side * (e.z * high - dvec2(e));
-  const std::array<bool, 4> exits = {atLow.y<0, atHigh.x> 0, atHigh.y > 0, atLow.x < 0};
+  const std::array<bool, 4> exits = {atLow.y < 0, atHigh.x > 0, atHigh.y > 0, atLow.x < 0};
   const std::array<double, 5> starts = {0, size.x, size.x + size.y, 2 * size.x + size.y, 2 * size.x + 2 * size.y};
   // The sides that lines leave through are neighbours; begin at the one whose predecessor is none of them.
   double begin = 0, length = 0;

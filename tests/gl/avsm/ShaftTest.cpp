@@ -117,10 +117,7 @@ TEST_CASE("avsm shafts: filtered shadows, cascades, coloured media and every set
       {"no tree", [](Frame& f) { f.settings.minMaxTree = false; }},
       {"no averages", [](Frame& f) { f.settings.averageThreshold = 0; }},
       {"row step", [](Frame& f) { f.settings.rowStep = 2; }},
-      {"coloured",
-       [](Frame& f) {
-         f.medium.constituents = {{{0.02F, 0.05F, 0.09F}, Phase::Rayleigh, 0}};
-       }},
+      {"coloured", [](Frame& f) { f.medium.constituents = {{{0.02F, 0.05F, 0.09F}, Phase::Rayleigh, 0}}; }},
       {"spread", [](Frame& f) { f.settings.spreadThreshold = 0.01F; }}};
   for (const auto& [name, change] : changes)
     for (const LightKind kind : {LightKind::Directional, LightKind::Spot}) {

@@ -154,27 +154,17 @@ const std::vector<Breakage> kBreakages = {
     {"light kind 3", [](Frame& f) { setEnum(f.lights[1].kind, 3); }, {"lights[1].kind is 3", "enumerators"}},
     {"light kind -1", [](Frame& f) { setEnum(f.lights[1].kind, -1); }, {"lights[1].kind is -1", "enumerators"}},
     {"no direction",
-     [](Frame& f) {
-       f.lights[0].direction = {0, 0, 0};
-     },
+     [](Frame& f) { f.lights[0].direction = {0, 0, 0}; },
      {"lights[0].direction is (0, 0, 0)", "not 0"}},
-    {"no spot direction",
-     [](Frame& f) {
-       f.lights[2].direction = {0, -0.0, 0};
-     },
-     {"lights[2].direction", "not 0"}},
+    {"no spot direction", [](Frame& f) { f.lights[2].direction = {0, -0.0, 0}; }, {"lights[2].direction", "not 0"}},
     {"boundary of a point light",
      [](Frame& f) { f.lights[1].boundary.enabled = true; },
      {"lights[1].boundary.enabled", "directional"}},
     {"boundary without normal",
-     [](Frame& f) {
-       f.lights[0].boundary = {true, {0, 0, 0}, {0, 0, 0}};
-     },
+     [](Frame& f) { f.lights[0].boundary = {true, {0, 0, 0}, {0, 0, 0}}; },
      {"lights[0].boundary.normal is (0, 0, 0)", "not 0"}},
     {"boundary along the light",
-     [](Frame& f) {
-       f.lights[0].boundary = {true, {0, 0, 0}, {1, 0.4, 0}};
-     },
+     [](Frame& f) { f.lights[0].boundary = {true, {0, 0, 0}, {1, 0.4, 0}}; },
      {"lights[0].boundary.normal", "parallel"}},
     {"no views", [](Frame& f) { f.lights[0].shadow.views.clear(); }, {"lights[0].shadow.views is 0 long", "1 to 4"}},
     {"5 cascades",

@@ -319,18 +319,17 @@ void addTextures(Rows& rows) {
        {std::pair("zero", GL_ZERO), {"one", GL_ONE}, {"green", GL_GREEN}, {"alpha", GL_ALPHA}}) {
     const auto red = static_cast<GLint>(source);
     const std::string rule = ": GL_TEXTURE_SWIZZLE_R must be GL_RED";
-    rows.push_back({std::string("depth that gives ") + name + " as red",
+    rows.push_back(
+        {std::string("depth that gives ") + name + " as red",
+         [red](Engine& e) { setParameters(GL_TEXTURE_2D, e.frame.depth.texture, {{GL_TEXTURE_SWIZZLE_R, red}}); },
+         Where::Everywhere, 33, rule});
+    rows.push_back({std::string("a shadow map that gives ") + name + " as red",
                     [red](Engine& e) {
-                      setParameters(GL_TEXTURE_2D, e.frame.depth.texture, {{GL_TEXTURE_SWIZZLE_R, red}});
+                      const ShadowMap& map = e.frame.lights[0].shadow;
+                      setParameters(map.array ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, map.texture,
+                                    {{GL_TEXTURE_SWIZZLE_R, red}});
                     },
                     Where::Everywhere, 33, rule});
-    rows.push_back(
-        {std::string("a shadow map that gives ") + name + " as red",
-         [red](Engine& e) {
-           const ShadowMap& map = e.frame.lights[0].shadow;
-           setParameters(map.array ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, map.texture, {{GL_TEXTURE_SWIZZLE_R, red}});
-         },
-         Where::Everywhere, 33, rule});
   }
   rows.push_back({"depth whose green, blue and alpha are swizzled",
                   [](Engine& e) {

@@ -135,9 +135,7 @@ TEST_CASE("prepare refuses what render refuses, in the same words") {
       [](Frame& f) { f.depth.texture = f.colour; },
       [](Frame& f) { f.depth.multisampled = true; },
       [](Frame& f) { f.lights.resize(kMaxLights + 1); },
-      [](Frame& f) {
-        f.lights[0].direction = {0, 0, 0};
-      },
+      [](Frame& f) { f.lights[0].direction = {0, 0, 0}; },
       [](Frame& f) { f.lights[1].shadow.views.resize(kMaxShadowViews + 1); },
       [](Frame& f) { f.lights[2].glass.depth = 0; },
       [](Frame& f) { f.lights[0].curves.texture = 4000; },

@@ -243,40 +243,16 @@ TEST_CASE("values at the ends of float32 stay finite") {
     std::function<void(Frame&)> set;
   };
   const std::vector<Extreme> extremes = {
-      {"bright",
-       [](Frame& f) {
-         f.lights[0].colour = {3e38F, 3e38F, 1e-38F};
-       }},
-      {"far light",
-       [](Frame& f) {
-         f.lights[0].position = {1e30, -1e25, 3e38};
-       }},
-      {"light beyond float32",
-       [](Frame& f) {
-         f.lights[0].position = {1e200, 0, 0};
-       }},
-      {"long direction",
-       [](Frame& f) {
-         f.lights[0].direction = {1e200, -3e250, 1e100};
-       }},
-      {"short direction",
-       [](Frame& f) {
-         f.lights[0].direction = {1e-200, -3e-250, 1e-200};
-       }},
+      {"bright", [](Frame& f) { f.lights[0].colour = {3e38F, 3e38F, 1e-38F}; }},
+      {"far light", [](Frame& f) { f.lights[0].position = {1e30, -1e25, 3e38}; }},
+      {"light beyond float32", [](Frame& f) { f.lights[0].position = {1e200, 0, 0}; }},
+      {"long direction", [](Frame& f) { f.lights[0].direction = {1e200, -3e250, 1e100}; }},
+      {"short direction", [](Frame& f) { f.lights[0].direction = {1e-200, -3e-250, 1e-200}; }},
       {"long range", [](Frame& f) { f.lights[0].range = 1e300; }},
       {"short range", [](Frame& f) { f.lights[0].range = 1e-300; }},
-      {"thin",
-       [](Frame& f) {
-         f.medium.constituents[0].scattering = {1e-38F, 1e-45F, 1e-30F};
-       }},
-      {"thick",
-       [](Frame& f) {
-         f.medium.constituents[0].scattering = {1e30F, 3e38F, 1e20F};
-       }},
-      {"black",
-       [](Frame& f) {
-         f.medium.absorption = {3e38F, 3e38F, 3e38F};
-       }},
+      {"thin", [](Frame& f) { f.medium.constituents[0].scattering = {1e-38F, 1e-45F, 1e-30F}; }},
+      {"thick", [](Frame& f) { f.medium.constituents[0].scattering = {1e30F, 3e38F, 1e20F}; }},
+      {"black", [](Frame& f) { f.medium.absorption = {3e38F, 3e38F, 3e38F}; }},
       {"thick and black",
        [](Frame& f) {
          f.medium.constituents[0].scattering = f.medium.constituents[1].scattering = {3e38F, 3e38F, 3e38F};

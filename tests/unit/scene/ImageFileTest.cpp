@@ -116,14 +116,10 @@ TEST_CASE("What cannot be written leaves no file, and an old one as it was", "[s
   CHECK_THAT(refusal([&] { host::writeExr(folder / "taken.exr", sample()); }),
              Contains("taken.exr: cannot be written"));
   CHECK_THAT(refusal([&] { host::writeExr(folder / "none/a.exr", sample()); }), Contains("folder does not exist"));
-  CHECK_THAT(refusal([&] {
-               host::writePng(folder / "none/a.png", 1, 1, {1, 2, 3});
-             }),
+  CHECK_THAT(refusal([&] { host::writePng(folder / "none/a.png", 1, 1, {1, 2, 3}); }),
              Contains("folder does not exist"));
   CHECK_THAT(refusal([] { host::writeExr("/proc/a.exr", sample()); }), Contains("/proc/a.exr: cannot be written"));
-  CHECK_THAT(refusal([] {
-               host::writePng("/proc/a.png", 1, 1, {1, 2, 3});
-             }),
+  CHECK_THAT(refusal([] { host::writePng("/proc/a.png", 1, 1, {1, 2, 3}); }),
              Contains("/proc/a.png: cannot be written"));
   CHECK_THAT(refusal([] { host::writePng("", 1, 1, {1, 2, 3}); }), Contains("cannot be written"));
   CHECK(fileCount(folder) == 1);

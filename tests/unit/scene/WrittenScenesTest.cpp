@@ -23,7 +23,7 @@ glm::dvec3 lookOf(const glm::dmat4& worldFromNode) { return -glm::normalize(glm:
 glm::dvec3 toGlm(const tyndall::Rgb& rgb) { return {rgb[0], rgb[1], rgb[2]}; }
 
 /// The nodes for which `member` is set, in the order of the file.
-std::vector<std::size_t> nodesWith(const host::Scene& scene, int host::Node::*member) {
+std::vector<std::size_t> nodesWith(const host::Scene& scene, int host::Node::* member) {
   std::vector<std::size_t> nodes;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i)
     if (scene.nodes[i].*member >= 0) nodes.push_back(i);
