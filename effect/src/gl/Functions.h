@@ -175,10 +175,12 @@ using Sync = ::__GLsync*;
   X(void, BindSamplers, (Uint first, Sizei n, const Uint* samplers), Textures)
 
 struct Functions {
+  // NOLINTBEGIN(readability-identifier-naming): GL's names
 #define TYNDALL_GL_DECLARE(result, name, arguments, state) result(TYNDALL_GLAPI* name) arguments = nullptr;
   TYNDALL_GL_REQUIRED(TYNDALL_GL_DECLARE)
   TYNDALL_GL_OPTIONAL(TYNDALL_GL_DECLARE)
 #undef TYNDALL_GL_DECLARE
+  // NOLINTEND(readability-identifier-naming)
   int version = 0;               ///< 10 * major + minor of the context
   bool stencilTexturing = false; ///< a texture may show its stencil in place of its depth
   bool compatibility = false;    ///< of the compatibility profile

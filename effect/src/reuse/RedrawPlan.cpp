@@ -7,13 +7,14 @@ namespace tyndall {
 
 namespace {
 
+const KeptSlices* lastOf(const KeptLight& light) { return light.last ? &*light.last : nullptr; }
+
 LightRedraw planLight(const KeptEye& eye, const FrameKey& key, std::size_t i, const Frame& frame, bool sameFrame) {
   LightRedraw light;
   light.index = key.drawn[i];
   light.key = key.lights[i];
   light.maps = mapsOf(frame.lights[light.index]);
-  const KeptSlices* last =
-      light.index < eye.lights.size() && eye.lights[light.index]->last ? &*eye.lights[light.index]->last : nullptr;
+  const KeptSlices* last = light.index < eye.lights.size() ? lastOf(*eye.lights[light.index]) : nullptr;
   const bool hasMap = frame.lights[light.index].shadow.texture != 0;
   if (frame.reuse.changes == Changes::Detect) {
     light.comparesEnds = !eye.last || !isStated(depthOf(frame), eye.last->depth);
