@@ -53,6 +53,7 @@ glm::ivec2 SmokeRenderer::lightSize() const {
 /// Farthest first.
 void SmokeRenderer::sort(const CameraView& camera) {
   std::vector<std::pair<double, std::size_t>> order;
+  order.reserve(particles_.size());
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     order.emplace_back((camera.viewFromWorld * glm::dvec4(particles_[i].position, 1)).z, i);
   }

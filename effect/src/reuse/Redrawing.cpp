@@ -128,7 +128,7 @@ void planAll(LightPlanner& light, Redrawing& frame) {
 void planSlices(LightPlanner& light, LightRedraw& redraw, Redrawing& frame) {
   KeptLight& kept = *frame.eye.lights[redraw.index];
   light.keptTargets = &kept.targets;
-  if (redraw.redraw == Redraw::Nothing) {
+  if (redraw.redraw == Redraw::Nothing && kept.last) {
     takeKept(light, *kept.last);
     light.extent = kept.last->extent;
     light.block = kept.last->block;
