@@ -43,6 +43,7 @@ glm::dmat4 placed(const glm::dmat4& worldFromNode, const Bounds& bounds) {
 
 std::vector<Bounds> meshBounds(const Scene& scene) {
   std::vector<Bounds> bounds;
+  bounds.reserve(scene.meshes.size());
   for (const Mesh& mesh : scene.meshes)
     bounds.push_back(boundsOf(mesh));
   return bounds;

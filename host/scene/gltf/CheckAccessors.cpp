@@ -23,9 +23,9 @@ void checkBuffer(Fields buffer) {
 }
 
 void checkBufferView(Fields view) {
-  const std::int64_t buffer = *view.index("buffer", "buffers", Need::Required);
+  const std::int64_t buffer = view.requiredIndex("buffer", "buffers");
   const std::int64_t offset = view.integer("byteOffset", 0, kMaxOffset).value_or(0);
-  const std::int64_t length = *view.integer("byteLength", 1, kMaxOffset, Need::Required);
+  const std::int64_t length = view.requiredInteger("byteLength", 1, kMaxOffset);
   const nlohmann::json& owner = view.document().json["buffers"][static_cast<std::size_t>(buffer)];
   const auto available = owner["byteLength"].get<std::int64_t>();
   if (offset + length > available) {
@@ -58,18 +58,18 @@ void checkRange(const Fields& owner, const char* key, const View& view, std::int
 
 void checkSparse(Fields sparse, std::int64_t accessorCount, ElementSize valueSize) {
   Document& document = sparse.document();
-  const std::int64_t count = *sparse.integer("count", 1, accessorCount, Need::Required);
+  const std::int64_t count = sparse.requiredInteger("count", 1, accessorCount);
 
   Fields indices(document, *sparse.object("indices", Need::Required), sparse.path("indices"));
-  const std::int64_t type = *indices.integer("componentType", 0, 0xffff, Need::Required);
+  const std::int64_t type = indices.requiredInteger("componentType", 0, 0xffff);
   if (!isIndexType(static_cast<int>(type))) indices.refuse("componentType", "must be 5121, 5123 or 5125");
-  const View indexView = viewAt(document, *indices.index("bufferView", "bufferViews", Need::Required));
+  const View indexView = viewAt(document, indices.requiredIndex("bufferView", "bufferViews"));
   if (indexView.stride != 0) indices.refuse("bufferView", "must not have a byteStride");
   const std::int64_t indexOffset = indices.integer("byteOffset", 0, kMaxOffset).value_or(0);
   checkRange(indices, "byteOffset", indexView, indexOffset, count, elementSize("SCALAR", static_cast<int>(type)));
 
   Fields values(document, *sparse.object("values", Need::Required), sparse.path("values"));
-  const View valueView = viewAt(document, *values.index("bufferView", "bufferViews", Need::Required));
+  const View valueView = viewAt(document, values.requiredIndex("bufferView", "bufferViews"));
   if (valueView.stride != 0) values.refuse("bufferView", "must not have a byteStride");
   const std::int64_t valueOffset = values.integer("byteOffset", 0, kMaxOffset).value_or(0);
   checkRange(values, "byteOffset", valueView, valueOffset, count, valueSize);
@@ -77,11 +77,11 @@ void checkSparse(Fields sparse, std::int64_t accessorCount, ElementSize valueSiz
 
 void checkAccessor(Fields accessor) {
   Document& document = accessor.document();
-  const auto component = static_cast<int>(*accessor.integer("componentType", 0, 0xffff, Need::Required));
+  const auto component = static_cast<int>(accessor.requiredInteger("componentType", 0, 0xffff));
   if (componentSize(component) == 0) {
     accessor.refuse("componentType", "must be 5120, 5121, 5122, 5123, 5125 or 5126");
   }
-  const std::int64_t count = *accessor.integer("count", 1, kMaxCount, Need::Required);
+  const std::int64_t count = accessor.requiredInteger("count", 1, kMaxCount);
   const std::string type =
       accessor.string("type", Need::Required, {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"});
   accessor.boolean("normalized");

@@ -12,9 +12,8 @@ void checkPrimitive(Fields primitive) {
   Document& document = primitive.document();
   primitive.integer("mode", 0, 6);
   primitive.index("indices", "accessors");
-  if (primitive.has("material")) {
-    const std::int64_t material = *primitive.integer("material", 0, std::numeric_limits<std::int32_t>::max());
-    if (static_cast<std::size_t>(material) >= document.count("materials")) {
+  if (const auto material = primitive.integer("material", 0, std::numeric_limits<std::int32_t>::max())) {
+    if (static_cast<std::size_t>(*material) >= document.count("materials")) {
       document.note(primitive.path("material"), "there is no such material; the default one is taken");
       primitive.value().erase("material");
     }
@@ -22,7 +21,7 @@ void checkPrimitive(Fields primitive) {
   Fields attributes(document, *primitive.object("attributes", Need::Required), primitive.path("attributes"));
   std::optional<std::int64_t> count;
   for (const auto& [name, value] : attributes.value().items()) {
-    const std::int64_t accessor = *attributes.index(name.c_str(), "accessors", Need::Required);
+    const std::int64_t accessor = attributes.requiredIndex(name.c_str(), "accessors");
     const auto elements = document.json["accessors"][static_cast<std::size_t>(accessor)]["count"].get<std::int64_t>();
     if (count.value_or(elements) != elements) attributes.refuse(name.c_str(), "attributes differ in their counts");
     count = elements;

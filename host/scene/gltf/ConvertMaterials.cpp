@@ -108,6 +108,7 @@ private:
 std::vector<TextureCoordinates> convertMaterials(Document& document, Scene& scene) {
   MaterialConverter converter(document, scene);
   std::vector<TextureCoordinates> coordinates;
+  coordinates.reserve(document.count("materials") + 1);
   for (std::size_t i = 0; i < document.count("materials"); ++i) {
     coordinates.push_back(converter.convert(i));
   }

@@ -77,6 +77,14 @@ void Fields::indices(const char* key, const char* collection) {
   }
 }
 
+std::int64_t Fields::requiredInteger(const char* key, std::int64_t low, std::int64_t high) {
+  return integer(key, low, high, Need::Required).value_or(low); // which refuses to lack one
+}
+
+std::int64_t Fields::requiredIndex(const char* key, const char* collection) {
+  return index(key, collection, Need::Required).value_or(0);
+}
+
 std::optional<double> Fields::number(const char* key, Need need) {
   nlohmann::json* value = find(key, need);
   if (value == nullptr) return std::nullopt;

@@ -29,6 +29,9 @@ public:
   void indices(const char* key, const char* collection);
 
   std::optional<double> number(const char* key, Need need = Need::Optional);
+  /// The same of fields that must be there.
+  std::int64_t requiredInteger(const char* key, std::int64_t low, std::int64_t high);
+  std::int64_t requiredIndex(const char* key, const char* collection);
   void numbers(const char* key, std::size_t length);
   void boolean(const char* key);
 
