@@ -11,21 +11,14 @@ cat >list.json <<'LIST'
 LIST
 mkdir scenes
 cp "$scene" scenes/scene.glb
-tools=$bin
-if [ ! -x "$bin/tyndall-regress" ]; then
-  echo "NOT TESTED: $bin/tyndall-regress is not there: a stand-in takes its place" >&2
-  mkdir tools
-  tools=$work/tools
-  cp "$here/standIn.sh" tools/tyndall-regress
-fi
 regress() {
   out=$1
   shift
-  "$submit" regress list.json --references references --scenes scenes --tasks 3 --out "$out" --bin "$tools" "$@"
+  "$submit" regress list.json --references references --scenes scenes --tasks 3 --out "$out" --bin "$bin" "$@"
 }
 
 refused 1 "--references references: no such folder" regress checked
-"$tools/tyndall-regress" record list.json --references references --scenes scenes
+"$bin/tyndall-regress" record list.json --references references --scenes scenes
 refused 1 'out: was made with kind "film", not "regress"' regress out
 refused 2 "--only: is set by submit.py" regress checked -- --only one
 
@@ -44,5 +37,5 @@ wait_until 300 "the jobs" is_idle
 cat "checked/log/report-$(last_job submitted).log"
 require test "$(state_of "$(last_job submitted)")" = COMPLETED
 require test -s checked/results/report.html
-"$tools/tyndall-regress" check list.json --references references --scenes scenes --out alone >alone.out 2>&1
+"$bin/tyndall-regress" check list.json --references references --scenes scenes --out alone >alone.out 2>&1
 require test "$(cd checked/results && find . | sort)" = "$(cd alone && find . | sort)"

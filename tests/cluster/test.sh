@@ -100,7 +100,7 @@ refused 2 "argument --tasks: 0: must be a whole number" "$submit" film "$scene" 
 refused 2 "argument --film: a.gif: must be a file's name that ends in .mp4 or .webm" film out --film a.gif
 refused 2 "must not hold %" film out%A
 refused 2 "--stats: is set by submit.py" "$submit" film "$scene" --frames 0-9 --tasks 2 --out out -- --stats s.json
-refused 2 "--technique guess" "$submit" film "$scene" --frames 0-9 --tasks 2 --out out --bin "$bin" -- --technique guess
+refused 2 "--technique: guess not in" "$submit" film "$scene" --frames 0-9 --tasks 2 --out out --bin "$bin" -- --technique guess
 refused 1 "Slurm's squeue is not found" env PATH="$work/empty_path" "$python" "$submit" film "$scene" \
   --frames 0-9 --tasks 2 --out out --bin "$bin"
 require test "$(find foreign another damaged | sort | tr '\n' ' ')" = \

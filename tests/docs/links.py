@@ -14,7 +14,8 @@ from pages import Page, pages
 
 LINES = {"README.md": 180}  # of a page, at most; others:
 OTHER_LINES = 450
-OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
+OPTION = re.compile(r"(?<![\w=-])--[a-z][a-z-]*")  # what stands behind "=" is another program's
+COMMAND = re.compile(r"^Subcommands:\n((?:  .*\n)+)", re.MULTILINE | re.IGNORECASE)
 SOURCE = re.compile(r"[\w.-]+(/[\w.-]+)+\.(cpp|h|glsl|frag|vert|comp|sh|py|cmake|md|json)")
 
 
@@ -85,13 +86,12 @@ class Checker:
             program = self.binaries / tool
             self.helps[tool] = None
             if program.exists():
-                answer = subprocess.run([program, "--help"], capture_output=True, text=True, check=False)
-                self.helps[tool] = set(OPTION.findall(answer.stdout + answer.stderr))
+                self.helps[tool] = set(OPTION.findall(help_text([program])))
         return self.helps[tool]
 
     def all_options(self):
         if "" not in self.helps:
-            tools = [program.name for program in self.binaries.glob("tyndall-*") if not program.name.endswith("-tests")]
+            tools = [program.name for program in self.binaries.glob("tyndall-*")]
             scripts = [path for folder in ("samples", "tests") for path in (self.root / folder).rglob("*.[sp][hy]")]
             self.helps[""] = set().union(*map(self.help_of, tools))
             self.helps[""] |= {option for path in scripts for option in OPTION.findall(path.read_text(encoding="utf-8"))}
@@ -99,12 +99,13 @@ class Checker:
 
     def check_options(self, page, line, text, alone):
         """Of a command: those of the tool or script that it names. In prose an option may stand by itself: it is one of any."""
+        text = text.partition(" -- ")[0]
         words = text.split()
         tools = [word for word in words if re.fullmatch(r"(build/bin/)?tyndall-[\w-]+", word)]
         scripts = [word for word in words if re.fullmatch(r"[\w.-]+(/[\w.-]+)+\.(sh|py)", word)]
         if scripts:
-            script = self.root / scripts[0]
-            if not script.exists():
+            script = next((path for path in (self.root / scripts[0], page.path.parent / scripts[0]) if path.exists()), None)
+            if not script:
                 return self.fault(page, line, f"{scripts[0]}: there is no such script")
             return self.missing(page, line, text, scripts[0], set(OPTION.findall(script.read_text(encoding="utf-8"))))
         if not self.binaries or not (tools or (alone and text.startswith("--"))):
@@ -157,6 +158,16 @@ class Checker:
                     name = str(path.relative_to(self.root))
                     if path.suffix != ".md" and re.search(asked[2], path.read_text(encoding="utf-8")) and f"`{name}`" not in text:
                         self.fault(page, number, f"{name} is not named")
+
+
+def help_text(command):
+    """What --help says, of subcommands, too."""
+    answer = subprocess.run(command + ["--help"], capture_output=True, text=True, check=False)
+    text = answer.stdout + answer.stderr
+    for listed in COMMAND.findall(text):
+        for line in listed.splitlines():
+            text += help_text(command + line.split()[:1])
+    return text
 
 
 def commands(block):

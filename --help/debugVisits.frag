@@ -1,0 +1,126 @@
+#version 330 core
+#define UNIFORM_BLOCK(name) layout(std140) uniform name
+// Debug view of visits: node visits as a heat map, log2(1 + visits) over 10, and its scale bar: a tick at each factor of 4.
+
+#define MAX_CONSTITUENTS 4
+#define MAX_SHADOW_VIEWS 6
+#define MAX_DEPTH_SAMPLES 16
+#define EPIPOLE_GAP 0.25 // pixels between an epipole in the image and where slices begin
+#define LAMP_PIXELS 32.0 // around a lamp in the image, where every pixel is marched by itself: its light is brightest there
+
+UNIFORM_BLOCK(FrameBlock) {
+  vec4 farPoint[3];
+  vec4 nearStep;
+  float depthOffset, depthScale;      // t = depthOffset + depthScale * depth
+  int isOrthographic;
+  float skyEnd;                       // ray length for the sky
+  vec3 extinction;                    // sigma_t
+  float visibleEnd;                   // ray length beyond which nothing visible is added
+  vec4 phaseWeight[MAX_CONSTITUENTS]; // share of sigma_k in the scattering of all constituents, rgb, times the norm of p_k
+  vec4 phaseShape[MAX_CONSTITUENTS];  // a, b, c, side: p_k ~ (1 + c cos^2) (a + b (1 -+ cos))^(-3/2), - for side > 0
+  float lightCeiling;                 // largest radiance that a light may add,
+  float colourMax, outputMax;         // that the colour's format holds, the output's
+  int isMultisampled;                 // the depth texture
+  int constituentCount;
+  int depthSampleCount;               // of a pixel
+  ivec2 frameSize;                    // of the image, pixels
+};
+
+struct MapView {
+  mat4 texelFromCamera;               // (x, y, z, 1) to (texel x, texel y, depth, 1) w; depth grows away from the light
+  vec4 margin;                        // what lies beyond a side by at most xy + s zw (x, y times w), which is rounding, belongs to the view
+  vec4 curveDepth;                    // depth of the curves (lib/curves.glsl) at x: dot(xyz, x) + w, 0 at the near and 1 at the far plane
+  float nearDepth, farDepth;          // of the near and the far plane
+  float depthSign;                    // of stored depth
+  int isOpen;                         // 1 if open beyond the far plane
+  int layer;                          // of an array
+  int viewPadding0, viewPadding1, viewPadding2;
+};
+
+UNIFORM_BLOCK(LightBlock) {
+  vec3 lightColour;                   // irradiance or radiant intensity times the scattering coefficient of all constituents
+  int isLitOutside;                   // 1 if lit outside of the shadow views
+  vec3 lightDirection;                // unit; where a directional light travels to, the axis of a spot
+  float cascadeFade;                  // share of a shadow view's width over which it fades into the next
+  vec3 lightPosition;                 // point, spot
+  float lightRange;                   // 0 if without limit
+  float outerCosine, innerCosine;     // of a spot's cone; -1 of a point light
+  float outerSineSquared, innerSineSquared;
+  float falloffScale;                 // 1 / (innerCosine - outerCosine), or 0 for a hard edge
+  float falloffPanel;                 // panels (in x of airlight.glsl) up to which two nodes resolve the falloff
+  ivec2 shadowMapSize;                // texels
+  vec4 boundary;                      // the light's path in the medium at x is max(0, dot(xyz, x) + w); all 0 if none
+  int viewCount;                      // shadow views
+  int curvesSize, curvesPacked;       // curves: texels per side of their map, 1 if packed,
+  int texelsPerCurve;                 // texels that hold one
+  MapView shadowViews[MAX_SHADOW_VIEWS];
+};
+
+UNIFORM_BLOCK(EpipolarBlock) {
+  vec3 epipole;                       // homogeneous window position of the light (x, y, w)
+  float epipoleSign;                  // of its w
+  vec4 border;                        // low x, low y, high x, high y
+  float slicesBegin, sliceWidth;      // arc length of the border where the slices begin, and per slice
+  float borderLength;
+  int slicesClosed;                   // 1 if the last slice neighbours the first
+  int sliceCount, samplesPerSlice;
+  int rowLength, treeLevels;          // texels of a row, levels of its tree or 0: none
+  float breakThreshold;               // relative change of distance that is a break,
+  float endThreshold;                 // as a difference of end coordinates (lib/stored.glsl)
+  float bendThreshold;                // bend of the inscatter that is refined
+  float leastWeight;                  // bilateral
+  float spreadThreshold;              // spread of the samples around a pixel, as a part of the picture's mean, over which it is marched by itself
+  float averageThreshold;             // optical depth of a stretch of a row that is taken by its average
+  int firstRefreshedSlice;            // temporal reuse: slices that are drawn anew though nothing has changed,
+  int endRefreshedSlice;              // up to this one
+  float rowCodeScale, rowCodeOffset;  // coded depth of a row = rowCodeScale depth + rowCodeOffset;
+  float emptyRowCode;                 // that of a texel without a caster
+  float rowCodeSteps;                 // 65535 if it is stored in 16 bit, else 0
+  vec3 storedScale;                   // of colours in half floats (lib/stored.glsl)
+  float leastCoordinate;              // end coordinate of the lowest code
+  int firstView, drawnViews;          // shadow views of a draw
+  int bringsOutside;                  // 1 for the draw that brings what is outside all views
+  int lowRankTerms;                   // low rank (lib/lowRank.glsl)
+  float lowRankRayBegin;              // first coordinate of the grid of camera rays,
+  float lowRankRayScale;              // samples a unit
+  float lowRankLightBegin;            // the same of light rays,
+  float lowRankLightExtent;           // of the whole grid
+  int lowRankPerSlice;                // 1 if each slice has factors of its own
+  int comparesEnds, comparesRows;     // temporal reuse: what is compared with the last frame's,
+  int comparesDepth, comparesSome;    // the depth itself, only some of the slices
+  int shownSamples;                   // debug views of samples: 0 all, 1 at depth breaks, 2 march samples
+  int epipolarPadding0, epipolarPadding1;
+};
+
+
+vec3 heat(float t) {
+  const vec3 kStops[5] = vec3[5](vec3(0.0), vec3(0.1, 0.1, 0.8), vec3(0.8, 0.05, 0.1), vec3(1.0, 0.8, 0.0), vec3(1.0));
+  float at = 4.0 * clamp(t, 0.0, 1.0);
+  int low = min(int(at), 3);
+  return mix(kStops[low], kStops[low + 1], at - float(low));
+}
+
+vec3 signedColour(float t) {
+  return mix(vec3(0.5), t < 0.0 ? vec3(0.0, 0.1, 1.0) : vec3(1.0, 0.1, 0.0), clamp(abs(t), 0.0, 1.0));
+}
+
+const float kOffBar = -1.0, kTick = -2.0;
+
+float barPosition(vec2 p, vec2 size, int parts) {
+  if (min(size.x, size.y) < 64.0) return kOffBar;
+  vec2 low = floor(size * vec2(0.1, 0.04)), high = floor(size * vec2(0.9, 0.07)) + 2.0;
+  if (any(lessThan(p, low - 1.0)) || any(greaterThan(p, high + 1.0))) return kOffBar;
+  float t = (p.x - low.x) / (high.x - low.x), part = t * float(parts);
+  bool onTick = abs(part - round(part)) * (high.x - low.x) < 0.75 * float(parts);
+  return onTick || any(lessThan(p, low)) || any(greaterThan(p, high)) ? kTick : t;
+}
+
+
+uniform sampler2D image;
+layout(location = 0) out vec4 outColour;
+
+void main() {
+  float t = log2(1.0 + texelFetch(image, ivec2(gl_FragCoord.xy), 0).r) / 10.0;
+  float bar = barPosition(gl_FragCoord.xy, vec2(frameSize), 5);
+  outColour = vec4(bar == kTick ? vec3(0.5) : heat(bar == kOffBar ? t : bar), 1.0);
+}
