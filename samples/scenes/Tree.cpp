@@ -35,6 +35,7 @@ std::vector<glm::dvec3> growth(const glm::dvec3& start, const glm::dvec3& direct
 
 std::vector<double> taper(std::size_t count, double from, double to) {
   std::vector<double> radii;
+  radii.reserve(count);
   for (std::size_t i = 0; i < count; ++i)
     radii.push_back(from + (to - from) * static_cast<double>(i) / static_cast<double>(count - 1));
   return radii;
