@@ -192,7 +192,7 @@ std::string outputOf(const std::vector<std::string>& command) {
       words.push_back(const_cast<char*>(word.c_str()));
     words.push_back(nullptr);
     const int nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    dup2(nothing, STDERR_FILENO);
+    if (nothing >= 0) dup2(nothing, STDERR_FILENO);
     dup2(descriptor, STDOUT_FILENO);
     execvp(words[0], words.data());
     _exit(1);

@@ -75,12 +75,14 @@
 
 namespace tests {
 
+// NOLINTBEGIN(readability-identifier-naming): GL's names
 enum class Call : std::size_t {
 #define TESTS_GL_ENUMERATOR(name) name,
   TESTS_GL_FUNCTIONS(TESTS_GL_ENUMERATOR)
 #undef TESTS_GL_ENUMERATOR
       Count
 };
+// NOLINTEND(readability-identifier-naming)
 
 inline constexpr std::size_t kCalls = static_cast<std::size_t>(Call::Count);
 
