@@ -18,11 +18,11 @@ std::vector<MethodEntry> makeEntries() {
     for (const int nodes : {4, 8, 12, 16})
       for (const bool packed : {false, true})
         all.push_back({std::string("avsm ") + text + " " + std::to_string(nodes) + (packed ? " packed" : ""),
-                       [nodes = nodes, packed = packed, reduction = reduction](Avsm&, const AvsmConfig& config) {
+                       [nodes = nodes, packed = packed, how = reduction](Avsm&, const AvsmConfig& config) {
                          AvsmConfig own = config;
                          own.nodes = nodes;
                          own.packed = packed;
-                         own.reduction = reduction;
+                         own.reduction = how;
                          return makeAvsm(own);
                        }});
   all.push_back({"lists", [](Avsm& lists, const AvsmConfig& c) { return makeLists(lists, c.size); }});
