@@ -29,7 +29,7 @@ std::function<std::string(const std::string&)> oneOf(const std::string& option, 
 /// An option of values that single commas separate, none of them twice; `read` makes each one of its text. "all" stands
 /// for the values of `all`, if there are any.
 template <typename Value, typename Read>
-CLI::Option* addList(CLI::App& app, const std::string& name, std::vector<Value>& list, Read read,
+CLI::Option* addList(CLI::App& app, const std::string& name, std::vector<Value>& list, const Read& read,
                      const std::string& help, const std::vector<Value>& all = {}) {
   const auto readAll = [name, &list, read, all](const std::string& text) {
     list = text == "all" ? all : std::vector<Value>();

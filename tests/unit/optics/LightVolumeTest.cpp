@@ -16,7 +16,6 @@ using tyndall::Frame;
 using tyndall::Light;
 using tyndall::optics::brightestInscatter;
 using tyndall::optics::isOutOfView;
-using tyndall::optics::LightShare;
 using tyndall::optics::shareOf;
 
 namespace {
