@@ -62,7 +62,8 @@ say "Formatting and static analysis"
 sh tests/lint.sh
 say "Tests under the sanitizers"
 # Mesa and LLVM keep memory until exit: leaks are looked for in our own code by tests/leaks.supp.
-ASAN_OPTIONS=detect_leaks=1 LSAN_OPTIONS="suppressions=$PWD/tests/leaks.supp:print_suppressions=0" \
-  run_cases build-sanitize -L sanitize
+# The symbolizer is that of the compiler: an older one says that it cannot be used, on the standard error that tests read.
+ASAN_SYMBOLIZER_PATH=/usr/bin/llvm-symbolizer-$clang_version ASAN_OPTIONS=detect_leaks=1 \
+  LSAN_OPTIONS="suppressions=$PWD/tests/leaks.supp:print_suppressions=0" run_cases build-sanitize -L sanitize
 say "Tests"
 run_cases build

@@ -3,7 +3,7 @@
 #include "render/SceneAnswers.h"
 #include "support/Catch.h"
 
-TEST_CASE("exact equals map-exact on every sample scene at 4096 x 4096") {
+TEST_CASE("exact equals map-exact on every sample scene at 4096 x 4096", "[slow]") {
   for (const std::string& scene : tests::sampleScenes()) {
     const tests::SceneAnswers answers = tests::renderScene(tests::sampleOptions(scene, 320, 180, 4096));
     const reference::ImageAnswer truth = reference::mapExact(answers.maps);
@@ -18,7 +18,7 @@ TEST_CASE("exact equals map-exact on every sample scene at 4096 x 4096") {
 
 // A texel of a quarter the width brings nearly a quarter of the error where a few pixels, on whose edge of a leaf the
 // rasteriser and the ray tracer disagree, do not count.
-TEST_CASE("the error of exact against scene-exact falls as the map grows") {
+TEST_CASE("the error of exact against scene-exact falls as the map grows", "[slow]") {
   for (const std::string& scene : tests::sampleScenes()) {
     reference::Image truth;
     std::vector<reference::ErrorMetrics> errors;

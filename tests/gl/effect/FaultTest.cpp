@@ -44,7 +44,7 @@ TEST_CASE("faults: a framebuffer that is refused, whichever, draws nothing", "[o
   checkAll(Fault::Framebuffer);
 }
 
-TEST_CASE("a context that is watched for calls and faults draws what the context itself does") {
+TEST_CASE("a context that is watched for calls and faults draws what the context itself does", "[slow]") {
   FaultyContext context;
   for (const tests::FrameCase& item : tests::frameCases()) {
     if (!tests::canDraw(item) || item.maxTextureSize > 0) continue;

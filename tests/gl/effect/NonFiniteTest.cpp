@@ -115,7 +115,7 @@ TEST_CASE("NaN and Inf in a shadow or glass map stay finite in the picture") {
       }
 }
 
-TEST_CASE("a shadow texel or pane that is not a number is none, by every technique", "[sweep]") {
+TEST_CASE("a shadow texel or pane that is not a number is none, by every technique", "[sweep][slow]") {
   for (const LightKind kind : {LightKind::Directional, LightKind::Spot, LightKind::Point})
     for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear})
       for (const bool glass : {false, true}) {

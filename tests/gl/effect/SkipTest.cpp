@@ -119,7 +119,7 @@ void checkSkipped(tests::ShaftRig& rig, const std::string& reason) {
 
 } // namespace
 
-TEST_CASE("a light whose volume no ray meets is skipped, and none that a ray meets") {
+TEST_CASE("a light whose volume no ray meets is skipped, and none that a ray meets", "[slow]") {
   std::mt19937 random(5);
   for (const tests::DepthConvention& camera : cameras()) {
     tests::SceneRig rig(24, 16);

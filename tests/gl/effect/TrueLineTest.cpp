@@ -53,7 +53,7 @@ void checkTrueLines(LightKind kind, int cascades, ShadowFilter filter, bool glas
 
 } // namespace
 
-TEST_CASE("a pixel that is marched along its own line is as exact as by exact") {
+TEST_CASE("a pixel that is marched along its own line is as exact as by exact", "[slow]") {
   for (const bool glass : {false, true})
     for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear}) {
       for (const LightKind kind : {LightKind::Directional, LightKind::Spot, LightKind::Point})
