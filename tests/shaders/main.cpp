@@ -2,9 +2,9 @@
 #include "ShaderSet.h"
 
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <fstream>
+#include <render/OptionRules.h>
 
 namespace {
 
@@ -23,16 +23,13 @@ void write(const std::filesystem::path& folder) {
 
 } // namespace
 
-int main(int count, char** arguments) {
-  if (count != 2) {
-    std::fprintf(stderr, "usage: tyndall-shaders DIR\n");
-    return 2;
-  }
-  try {
-    write(arguments[1]);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "tyndall-shaders: %s: %s\n", arguments[1], error.what());
-    return 1;
-  }
-  return 0;
+int main(int argc, char** argv) {
+  return render::runCommand("tyndall-shaders", [&] {
+    std::filesystem::path folder;
+    CLI::App app("Writes every shader of the project as a complete source.", "tyndall-shaders");
+    app.add_option("DIR", folder, "the folder, which is made")->required();
+    render::parseArguments(app, argc, argv);
+    write(folder);
+    return 0;
+  });
 }

@@ -83,7 +83,8 @@ TEST_CASE("every tool refuses wrong usage with two lines and exit code 2") {
       {"tyndall-avsm-bench --size 7", "--size: "},
       {"tyndall-avsm-bench --scenes fog", "--scenes fog: must be one of"},
       {"tyndall-accuracy --all", "--all"},
-      {"tyndall-low-rank ''", "SCENE"}};
+      {"tyndall-low-rank ''", "SCENE"},
+      {"tyndall-shaders --all", "DIR"}}; // no folder of that name
   for (const auto& [command, mention] : cases) {
     const tests::ToolResult result = folder.shell(command);
     CAPTURE(command, result.out, result.err);
