@@ -38,6 +38,8 @@ using Catch::Approx;
 
 namespace Catch {
 
+using Matchers::StartsWith;
+
 // NOLINTNEXTLINE(readability-identifier-naming): version 2's name
 inline Matchers::StringContainsMatcher Contains(const std::string& text) { return Matchers::ContainsSubstring(text); }
 
