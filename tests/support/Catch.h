@@ -27,6 +27,7 @@ inline const std::string& nameOf(const TestCaseStats& stats) { return stats.test
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <string>
 #ifdef CATCH_CONFIG_EXTERNAL_INTERFACES
+#include <catch2/catch_test_case_info.hpp>
 #include <catch2/reporters/catch_reporter_event_listener.hpp>
 #include <catch2/reporters/catch_reporter_registrars.hpp>
 #endif

@@ -126,7 +126,7 @@ Pictures thePictures;
 
 class FailureListener : public Catch::TestEventListenerBase {
 public:
-  using TestEventListenerBase::TestEventListenerBase;
+  using Catch::TestEventListenerBase::TestEventListenerBase;
 
   void testCaseStarting(const Catch::TestCaseInfo& info) override {
     folder_ = folderOf(info.name);
