@@ -20,15 +20,15 @@ test_jobs=$(nproc)
 
 build_plain() {
   say "Building with g++ into build/"
-  cmake -S . -B build -G Ninja -DTYNDALL_BUILD_TESTS=ON
-  cmake --build build
+  cmake -S . -B build -G Ninja -DTYNDALL_BUILD_TESTS=ON &&
+    cmake --build build
 }
 
 build_sanitized() {
   say "Building with clang++ and sanitizers into build-sanitize/"
   cmake -S . -B build-sanitize -G Ninja -DTYNDALL_BUILD_TESTS=ON -DTYNDALL_SANITIZE=ON -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-    -DCMAKE_C_COMPILER="clang-$clang_version" -DCMAKE_CXX_COMPILER="clang++-$clang_version"
-  cmake --build build-sanitize
+    -DCMAKE_C_COMPILER="clang-$clang_version" -DCMAKE_CXX_COMPILER="clang++-$clang_version" &&
+    cmake --build build-sanitize
 }
 
 # run_cases FOLDER [OPTION...]: ctest, which prints what fails whole.
@@ -57,13 +57,27 @@ if [ -z "$all" ]; then
   exit
 fi
 
-build_sanitized
-say "Formatting and static analysis"
-sh tests/lint.sh
-say "Tests under the sanitizers"
+lint() {
+  say "Formatting and static analysis"
+  sh tests/lint.sh
+}
+
 # Mesa and LLVM keep memory until exit: leaks are looked for in our own code by tests/leaks.supp.
 # The symbolizer is that of the compiler: an older one says that it cannot be used, on the standard error that tests read.
-ASAN_SYMBOLIZER_PATH=/usr/bin/llvm-symbolizer-$clang_version ASAN_OPTIONS=detect_leaks=1 \
-  LSAN_OPTIONS="suppressions=$PWD/tests/leaks.supp:print_suppressions=0" run_cases build-sanitize -L sanitize
-say "Tests"
-run_cases build
+test_sanitized() {
+  say "Tests under the sanitizers"
+  ASAN_SYMBOLIZER_PATH=/usr/bin/llvm-symbolizer-$clang_version ASAN_OPTIONS=detect_leaks=1 \
+    LSAN_OPTIONS="suppressions=$PWD/tests/leaks.supp:print_suppressions=0" run_cases build-sanitize -L sanitize
+}
+
+test_plain() {
+  say "Tests"
+  run_cases build
+}
+
+# Each step is taken even where one before it failed: a build server is asked once for all that is wrong.
+failed=
+for step in lint test_plain build_sanitized test_sanitized; do
+  "$step" || failed="$failed $step"
+done
+[ -z "$failed" ] || { say "FAILED:$failed" && exit 1; }
