@@ -1,8 +1,16 @@
 // In-scattered light of a lit span of a camera ray (DESIGN 1). LIGHT_KIND: 0 directional, 1 point, 2 spot.
 //
-// Airlight holds what a ray needs once; airlight(…, s0, s1) integrates the span [s0, s1]; litRange() says where along the
-// ray the light reaches at all. The light's colour and the scattering coefficient are left out: the caller multiplies by
+// Airlight holds what a ray needs once; addAirlight() adds the integral over the span [s0, s1] to a sum, times how much of the light
+// passes (one sum all the way down: sums of sums would each take registers); litRange() says where along the ray the light reaches at all. The light's colour and the scattering coefficient are left out: the caller multiplies by
 // lightColour, which holds both. PHASE_APART: so is a directional light's phase function, constant along the ray, too.
+
+#if GLASS
+#define Visibility vec3 // fraction of the light that passes, per channel
+#define Light vec3
+#else
+#define Visibility float
+#define Light Spectrum
+#endif
 
 // (1 - exp(-x)) / x for x >= 0: a series where the difference would cancel.
 float relativeExpm1(float x) {
@@ -55,18 +63,17 @@ Spectrum exponentialSpan(float e0, float slope, float len) {
 
 // Closed form (Yusov 2013, "Directional light"), with the light's own path where the medium has a boundary: in two parts
 // where the ray crosses it.
-Spectrum airlight(Airlight light, float s0, float s1) {
+void addAirlight(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
   float crossing = light.pathSlope != 0.0 ? -light.path / light.pathSlope : -1.0;
-  Spectrum sum = Spectrum(0.0);
   float from = s0;
   for (int i = 0; i < 2 && from < s1; ++i) {
     float to = crossing > from && crossing < s1 ? crossing : s1;
     float path = light.path + from * light.pathSlope, middle = light.path + 0.5 * (from + to) * light.pathSlope;
     bool attenuated = middle > 0.0;
-    sum += exponentialSpan(from + (attenuated ? max(path, 0.0) : 0.0), attenuated ? 1.0 + light.pathSlope : 1.0, to - from);
+    Spectrum span = exponentialSpan(from + (attenuated ? max(path, 0.0) : 0.0), attenuated ? 1.0 + light.pathSlope : 1.0, to - from);
+    sum += visibility * Light(light.phase * span);
     from = to;
   }
-  return light.phase * sum;
 }
 
 #else
@@ -75,10 +82,9 @@ struct Airlight {
   float foot;    // s of the point of the ray that is closest to the light
   float height2; // squared distance of the ray to the light
 #if LIGHT_KIND == 2
-  float axisFoot, axisSlope; // dot(axis, point - light) = axisFoot + (s - foot) axisSlope
-  float axisDistance;        // |det(light - eye, ray, axis)|: b^2 + h^2 A = h^2 sin^2 - axisDistance^2, where less cancels
-  vec3 sineFoot, sineSlope;  // cross(axis, point - light), likewise
-  vec2 lit, inner;           // intervals of s inside the outer and inside the inner cone
+  vec2 lit, inner; // intervals of s inside the outer and inside the inner cone
+  float chord;     // length of the first
+  vec3 edge;       // what the falloff is of: `along` of the cone's coordinates or, if it is wide, `axis` and 0
 #endif
 };
 
@@ -90,25 +96,42 @@ float evenLength(Airlight light, float most) {
 }
 
 #if LIGHT_KIND == 2
-// The interval of t = s - foot in which the ray is inside a cone (x: cosine >= 0, y: squared sine of its half angle):
+// A ray in a cone's own coordinates, at t = s - foot: dot(axis, point - light) = axis.x + t axis.y and
+// |cross(axis, point - light)|^2 = (along.x + t along.y)^2 + along.z^2, where nothing cancels.
+struct ConeRay {
+  vec2 axis;
+  vec3 along;
+  float axisDistance; // |det(light - eye, ray, axis)|
+};
+
+ConeRay coneRayOf(vec3 direction, vec3 footFromLight) {
+  // Both crosses lie in the plane across the axis: in the direction of the second and across it.
+  vec3 crossFoot = cross(lightDirection, footFromLight), crossSlope = cross(lightDirection, direction);
+  float slope = length(crossSlope), axisDistance = dot(lightDirection, cross(crossFoot, crossSlope));
+  vec3 along = slope > 0.0 ? vec3(dot(crossFoot, crossSlope) / slope, slope, axisDistance / slope) : vec3(length(crossFoot), 0.0, 0.0);
+  return ConeRay(vec2(dot(lightDirection, footFromLight), dot(lightDirection, direction)), along, axisDistance);
+}
+
+// The interval of t in which the ray is inside a cone (x: cosine >= 0, y: squared sine of its half angle):
 // where b + t v >= c sqrt(t^2 + h^2). Squared, A t^2 + 2 b v t + C >= 0 with A = v^2 - c^2, C = b^2 - c^2 h^2 and
 // b + t v >= 0; the convex cone meets the line in one interval, which the roots on the forward side bound. For narrow
-// cones A, B and C come from the sines, in which nothing cancels: X(t) = axis x (point - light) = X0 + t X1, sin = |X| / r.
-vec2 coneInterval(Airlight light, vec2 cosSinSquared) {
+// cones A, B and C come from the sines, in which nothing cancels; b^2 + h^2 A = h^2 sin^2 - axisDistance^2, where less cancels.
+vec2 coneInterval(Airlight light, ConeRay ray, vec2 cosSinSquared) {
   const vec2 kNone = vec2(1.0, -1.0);
   const float kFar = 1e30;
-  float b = light.axisFoot, v = light.axisSlope, c = cosSinSquared.x;
+  float b = ray.axis.x, v = ray.axis.y, c = cosSinSquared.x;
   if (c < 1e-4) { // a half-space: both nappes touch and the squared form has a double root; c < 0: a point light's open cone
     if (v == 0.0 || c < 0.0) return b > 0.0 || c < 0.0 ? vec2(-kFar, kFar) : kNone;
     return v > 0.0 ? vec2(-b / v, kFar) : vec2(-kFar, -b / v);
   }
   bool narrow = cosSinSquared.y < 0.5;
-  float A = narrow ? cosSinSquared.y - dot(light.sineSlope, light.sineSlope) : v * v - c * c;
-  float C = narrow ? cosSinSquared.y * light.height2 - dot(light.sineFoot, light.sineFoot) : b * b - c * c * light.height2;
+  float A = narrow ? cosSinSquared.y - ray.along.y * ray.along.y : v * v - c * c;
+  float C = narrow ? cosSinSquared.y * light.height2 - (ray.along.x * ray.along.x + ray.along.z * ray.along.z)
+                   : b * b - c * c * light.height2;
   // A ray through the lamp itself, as far as floats tell (the floor of airlightOf): its direction alone decides.
   if (light.height2 <= 1.01e-13 * light.foot * light.foot) return A < 0.0 ? kNone : v > 0.0 ? vec2(0.0, kFar) : vec2(-kFar, 0.0);
-  float B = narrow ? -dot(light.sineFoot, light.sineSlope) : b * v;
-  float discriminant = c * c * (cosSinSquared.y * light.height2 - light.axisDistance * light.axisDistance);
+  float B = narrow ? -ray.along.x * ray.along.y : b * v;
+  float discriminant = c * c * (cosSinSquared.y * light.height2 - ray.axisDistance * ray.axisDistance);
   if (!(discriminant > 0.0)) return kNone;
   // The stable pair of roots: q = -(B + sign(B) sqrt(D)), roots q / A and C / q.
   float q = -(B + (B < 0.0 ? -1.0 : 1.0) * sqrt(discriminant));
@@ -123,11 +146,11 @@ vec2 coneInterval(Airlight light, vec2 cosSinSquared) {
 // Falloff of KHR_lights_punctual at t, r: ((cos - cos outer) / (cos inner - cos outer))^2 in [0, 1].
 float coneFalloff(Airlight light, float t, float r) {
   if (falloffScale == 0.0) return 1.0; // a hard edge: the span ends at it
-  float cosine = (light.axisFoot + t * light.axisSlope) / r;
-  float difference = cosine - outerCosine;
+  vec2 edge = vec2(light.edge.x + t * light.edge.y, light.edge.z) / r;
+  float difference = edge.x - outerCosine;
   if (outerSineSquared < 0.5) {
-    vec3 sine = (light.sineFoot + t * light.sineSlope) / r;
-    difference = (outerSineSquared - dot(sine, sine)) / (cosine + outerCosine);
+    float sineSquared = dot(edge, edge);
+    difference = (outerSineSquared - sineSquared) / (sqrt(max(1.0 - sineSquared, 0.0)) + outerCosine);
   }
   float falloff = clamp(difference * falloffScale, 0.0, 1.0);
   return falloff * falloff;
@@ -142,14 +165,11 @@ Airlight airlightOf(Ray ray) {
   // The floor guards 1/h for a ray through the light: float32 does not resolve h below 1e-7 of the light's distance.
   light.height2 = max(dot(normal, normal), max(1e-13 * dot(toLight, toLight), 1e-36));
 #if LIGHT_KIND == 2
-  vec3 footFromLight = ray.direction * light.foot - toLight;
-  light.axisFoot = dot(lightDirection, footFromLight);
-  light.axisSlope = dot(lightDirection, ray.direction);
-  light.sineFoot = cross(lightDirection, footFromLight);
-  light.sineSlope = cross(lightDirection, ray.direction);
-  light.axisDistance = dot(lightDirection, cross(light.sineFoot, light.sineSlope));
-  light.lit = light.foot + coneInterval(light, vec2(outerCosine, outerSineSquared));
-  light.inner = light.foot + coneInterval(light, vec2(innerCosine, innerSineSquared));
+  ConeRay cone = coneRayOf(ray.direction, ray.direction * light.foot - toLight);
+  light.lit = light.foot + coneInterval(light, cone, vec2(outerCosine, outerSineSquared));
+  light.inner = light.foot + coneInterval(light, cone, vec2(innerCosine, innerSineSquared));
+  light.chord = light.lit.y - light.lit.x;
+  light.edge = outerSineSquared < 0.5 ? cone.along : vec3(cone.axis, 0.0);
 #endif
   return light;
 }
@@ -171,7 +191,7 @@ void litRange(Airlight light, inout float s0, inout float s1) {
 // The quadrature variable is x with t = s - foot = h sinh x, r = h cosh x (equi-angular sampling is tan phi = sinh x).
 // ds / r^2 = dx / r, and the integrand exp(-sigma (s + r)) p / r is analytic for |Im x| < pi/2 whatever sigma, g and h
 // are, so that panels of bounded length converge alike everywhere. P = r + t and N = r - t (P N = h^2) scale as
-// exp(+-x): a step along x multiplies P and divides N, h itself is not needed, and 1 - cos(theta) = P / r exactly.
+// exp(+-x): a step along x multiplies P, h itself is not needed, and 1 - cos(theta) = P / r exactly.
 
 // Length of [t0, t1] in x: asinh of sinh(x1 - x0), in the form that does not cancel. len = t1 - t0, known better than that.
 float panelLength(float t0, float r0, float t1, float r1, float len, float height2) {
@@ -184,41 +204,39 @@ float panelLength(float t0, float r0, float t1, float r1, float len, float heigh
   return y > 1e6 ? log(2.0 * y) : log(y + sqrt(1.0 + y * y));
 }
 
-// The integrand at r + t = P, r - t = N; start is s + r at the span's begin and P0 its P.
-Spectrum pointIntegrand(Airlight light, float P, float N, float start, float P0) {
-  float r = 0.5 * (P + N);
-  Spectrum value = phaseTowardsEye(P / r, N / r) * exp(-SPECTRUM(extinction) * (start + (P - P0))) / r;
+// The integrand at r + t = P, where s + r = foot + P.
+Spectrum pointIntegrand(Airlight light, float P) {
+  float N = light.height2 / P, r = 0.5 * (P + N);
+  Spectrum value = phaseTowardsEye(P / r, N / r) * exp(-SPECTRUM(extinction) * (light.foot + P)) / r;
 #if LIGHT_KIND == 2
   value *= coneFalloff(light, 0.5 * (P - N), r);
 #endif
   return value;
 }
 
-const float kNode6[3] = float[3](0.2386191860831969, 0.6612093864662645, 0.9324695142031521);
-const float kWeight6[3] = float[3](0.4679139345726910, 0.3607615730481386, 0.1713244923791704);
+// Gauss-Legendre nodes and weights, six and two of them.
+const vec4 kNode6 = vec4(0.2386191860831969, 0.4679139345726910, 0.6612093864662645, 0.3607615730481386);
+const vec2 kNode6Last = vec2(0.9324695142031521, 0.1713244923791704);
 const float kNode2 = 0.5773502691896257;
 
 // One smooth piece of a span: panels in x, at most 1 or 2 long and at most 6 optical depths deep, Gauss-Legendre in each.
-Spectrum pointPiece(Airlight light, float s0, float s1) {
+void addPiece(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
   const int kMaxPanels = 32;
   const float kDark = 20.0; // optical depths beyond the start after which nothing counts
   float t0 = s0 - light.foot, t1 = s1 - light.foot;
   float r0 = sqrt(t0 * t0 + light.height2), r1 = sqrt(t1 * t1 + light.height2);
   float P0 = t0 > 0.0 ? r0 + t0 : light.height2 / (r0 - t0);
-  float N0 = t0 > 0.0 ? light.height2 / (r0 + t0) : r0 - t0;
   float remaining = panelLength(t0, r0, t1, r1, s1 - s0, light.height2);
 #if LIGHT_KIND == 2
   const float longPanel = 1.0; // the falloff's poles at |Im x| = pi/2 are of fourth order
   // Along a chord of the cone the falloff is a bump: two nodes resolve it only over a small part of the chord and of the
   // soft edge (len bounds the angle that a panel covers).
-  float shortPanel = falloffScale == 0.0 ? 0.2 : min(falloffPanel, 0.05 * (light.lit.y - light.lit.x) / max(r0, r1));
+  float shortPanel = falloffScale == 0.0 ? 0.2 : min(falloffPanel, 0.05 * light.chord / max(r0, r1));
 #else
   const float longPanel = 2.0, shortPanel = 0.2;
 #endif
-  float start = s0 + r0;
   vec3 sigma = extinction;
-  Spectrum sum = Spectrum(0.0);
-  float P = P0, N = N0;
+  float P = P0;
   for (int i = 0; i < kMaxPanels && remaining > 0.0; ++i) {
     // The fastest channel that is not dark yet bounds the panel.
     vec3 passed = sigma * (P - P0);
@@ -229,37 +247,33 @@ Spectrum pointPiece(Airlight light, float s0, float s1) {
     float len = i == kMaxPanels - 1 ? remaining : min(remaining, min(longPanel, rate > 0.0 ? log(1.0 + 6.0 / rate) : longPanel));
     float halfLength = 0.5 * len;
     float middle = exp(halfLength);
-    float Pm = P * middle, Nm = N / middle;
+    float Pm = P * middle;
     bool isShort = len < shortPanel && rate * len < 0.3;
-    for (int k = 0; k < (isShort ? 1 : 3); ++k) {
-      float step = exp(halfLength * (isShort ? kNode2 : kNode6[k]));
-      sum += (halfLength * (isShort ? 1.0 : kWeight6[k])) * (pointIntegrand(light, Pm / step, Nm * step, start, P0) +
-                                                             pointIntegrand(light, Pm * step, Nm / step, start, P0));
+    for (int k = 0; k < (isShort ? 2 : 6); ++k) { // nodes in pairs around the middle
+      vec2 node = isShort ? vec2(kNode2, 1.0) : k < 2 ? kNode6.xy : k < 4 ? kNode6.zw : kNode6Last;
+      float step = exp((k & 1) == 0 ? -halfLength * node.x : halfLength * node.x);
+      sum += (halfLength * node.y) * visibility * Light(pointIntegrand(light, Pm * step));
     }
     P = Pm * middle;
-    N = Nm / middle;
     remaining -= len;
   }
-  return sum;
 }
 
-Spectrum airlight(Airlight light, float s0, float s1) {
+void addAirlight(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
 #if LIGHT_KIND == 2
   // The falloff has a kink where the ray crosses the inner cone.
-  Spectrum sum = Spectrum(0.0);
   float from = s0;
-  for (int i = 0; i < 3 && from < s1; ++i) {
+  while (from < s1) {
     float to = s1;
     if (light.inner.x < light.inner.y) {
       if (light.inner.y > from && light.inner.y < to) to = light.inner.y;
       if (light.inner.x > from && light.inner.x < to) to = light.inner.x;
     }
-    sum += pointPiece(light, from, to);
+    addPiece(light, from, to, visibility, sum);
     from = to;
   }
-  return sum;
 #else
-  return pointPiece(light, s0, s1);
+  addPiece(light, s0, s1, visibility, sum);
 #endif
 }
 

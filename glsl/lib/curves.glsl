@@ -49,27 +49,6 @@ vec2 curveBetween(ivec3 texel, float low, float high) {
   return sum / (high - low);
 }
 
-// A ray among the cells of a view's map: at u it is in cell begin + u extent, counted so that it never falls.
-struct CurveLine {
-  bool alongX, mirrored;
-  float begin, extent;
-  float across, acrossExtent;
-  int view;
-};
-
-CurveLine curveLine(ViewSegment segment, bool alongX, bool mirrored) {
-  vec2 scale = float(curvesSize) / vec2(shadowMapSize), p = segment.p0.xy * scale, d = segment.p1.xy * scale - p;
-  if (!alongX) {
-    p = p.yx;
-    d = d.yx;
-  }
-  if (mirrored) {
-    p.x = float(curvesSize) - p.x;
-    d.x = -d.x;
-  }
-  return CurveLine(alongX, mirrored, p.x, max(d.x, 0.0), p.y, d.y, segment.view);
-}
-
 // The two texels of a cell beside a line, and the weight of the second.
 ivec3 cellTexel(bool alongX, bool mirrored, int view, int cell, int across) {
   ivec2 at = clamp(ivec2(mirrored ? curvesSize - 1 - cell : cell, across), ivec2(0), ivec2(curvesSize - 1));
@@ -85,9 +64,30 @@ vec3 cellEnds(bool alongX, bool mirrored, int view, int cell, float across) {
 
 #ifndef CURVES_ALONE
 
-// A stretch between two parameters of the line over which the transmittance has a mean and a first moment.
+// A segment among the cells of its view's map: at u it is in cell begin + u extent, counted so that it never falls.
+struct CurveLine {
+  int turned; // 1: along y, +2: against the axis
+  float begin, extent;
+  float across, acrossExtent;
+  int row; // ROW_CURVES: that it runs along
+} curveLine;
+
+void startCurves(ViewSegment segment, bool alongX, bool mirrored, int row) {
+  vec2 scale = float(curvesSize) / vec2(shadowMapSize), p = segment.p0.xy * scale, d = segment.p1.xy * scale - p;
+  if (!alongX) {
+    p = p.yx;
+    d = d.yx;
+  }
+  if (mirrored) {
+    p.x = float(curvesSize) - p.x;
+    d.x = -d.x;
+  }
+  curveLine = CurveLine((alongX ? 0 : 1) + (mirrored ? 2 : 0), p.x, max(d.x, 0.0), p.y, d.y, row);
+}
+
+// A stretch of a line up to a parameter, over which the transmittance has a mean and a first moment.
 struct Dimmed {
-  float from, to;
+  float to;
   vec2 passed;
 };
 
@@ -99,55 +99,53 @@ float linearDepthAt(ViewSegment segment, float s) {
 uniform sampler2D curveCells; // cells x rows: as cellEnds
 uniform sampler2D curveTree;  // nodes of 4, 16, ... cells behind one another x rows; w: the first moment of what passes
 
-// Of the row that rays run along (startRow).
-struct CurveRow {
-  bool alongX, mirrored;
-  int row;
-} curveRow;
-
 float evenStretch(Airlight light) { return evenLength(light, averageThreshold); }
 #else
 float evenStretch(Airlight light) { return evenLength(light, 0.05); }
 #endif
 
-// The transmittance of a cell from one parameter to another, depths likewise.
-vec2 cellPassed(CurveLine line, int cell, float u0, float u1, float depth0, float depth1) {
-  float at = line.across + 0.5 * (u0 + u1) * line.acrossExtent - 0.5, low = floor(at);
+// The transmittance of a cell from one parameter to another.
+vec2 cellPassed(ViewSegment segment, int cell, float u0, float u1) {
+  float depth0 = linearDepthAt(segment, distanceAt(segment, u0)), depth1 = linearDepthAt(segment, distanceAt(segment, u1));
   float nearer = min(depth0, depth1), farther = max(max(depth0, depth1), nearer + 1e-7); // a ray across the light stays at one depth
-  ivec3 a = cellTexel(line.alongX, line.mirrored, line.view, cell, int(low)), b = cellTexel(line.alongX, line.mirrored, line.view, cell, int(low) + 1);
-  vec2 passed = mix(curveBetween(a, nearer, farther), curveBetween(b, nearer, farther), at - low);
+  float at = curveLine.across + 0.5 * (u0 + u1) * curveLine.acrossExtent - 0.5, low = floor(at);
+  vec2 passed = vec2(0.0);
+  for (int k = 0; k < 2; ++k) {
+    ivec3 texel = cellTexel((curveLine.turned & 1) == 0, curveLine.turned > 1, segment.view, cell, int(low) + k);
+    passed += (k == 0 ? 1.0 - (at - low) : at - low) * curveBetween(texel, nearer, farther);
+  }
   return vec2(passed.x, depth1 < depth0 ? -passed.y : passed.y);
 }
 
-// The next stretch from u on that is dimmed, up to `end`; from: where it begins, `end` if there is none.
-Dimmed nextDimmed(Airlight light, ViewSegment segment, CurveLine line, float u, float end) {
-  Dimmed found = Dimmed(end, end, vec2(1.0, 0.0));
-  int cells = curvesSize, cell = clamp(int(floor(line.begin + u * line.extent)), 0, cells - 1), level = 0, base = 0;
-  float even = evenStretch(light), s = distanceAt(segment, u), depth = linearDepthAt(segment, s);
-  bool walking = u < end;
-  for (int guard = 0; guard < 8 * cells && walking; ++guard) {
+// The stretch from u on, no farther than to `end`: all that is clear or, if nothing is there, one that is dimmed evenly.
+Dimmed nextDimmed(Airlight light, ViewSegment segment, float u, float end) {
+  int cells = curvesSize, cell = clamp(int(floor(curveLine.begin + u * curveLine.extent)), 0, cells - 1), level = 0, base = 0;
+  float even = evenStretch(light), begin = u, to;
+  vec2 passed; // of a node behind which the stretch lies
+  bool searching = u < end, known = false;
+  for (int guard = 0; guard < 8 * cells && searching; ++guard) {
     int node = cell >> (2 * level), next = (node + 1) << (2 * level);
-    bool last = next >= cells || line.extent == 0.0;
-    float to = last ? end : clamp((float(next) - line.begin) / line.extent, u, end);
+    bool last = next >= cells || curveLine.extent == 0.0;
+    to = last ? end : clamp((float(next) - curveLine.begin) / curveLine.extent, u, end);
     if (!(to > u) && !last) { // rounding left the walk a step behind
       cell = next;
       level = base = 0;
       continue;
     }
-    float sTo = distanceAt(segment, to), depthTo = linearDepthAt(segment, sTo);
+    float s = distanceAt(segment, u), sTo = distanceAt(segment, to), depth = linearDepthAt(segment, s), depthTo = linearDepthAt(segment, sTo);
 #ifdef ROW_CURVES
-    vec4 ends = level == 0 ? vec4(texelFetch(curveCells, ivec2(node, curveRow.row), 0).rgb, 0.0) : texelFetch(curveTree, ivec2(base + node, curveRow.row), 0);
+    vec4 ends = level == 0 ? vec4(texelFetch(curveCells, ivec2(node, curveLine.row), 0).rgb, 0.0) : texelFetch(curveTree, ivec2(base + node, curveLine.row), 0);
 #else
-    vec4 ends = vec4(cellEnds(line.alongX, line.mirrored, line.view, cell, line.across + 0.5 * (u + to) * line.acrossExtent), 0.0);
+    vec4 ends = vec4(cellEnds((curveLine.turned & 1) == 0, curveLine.turned > 1, segment.view, cell, curveLine.across + 0.5 * (u + to) * curveLine.acrossExtent), 0.0);
 #endif
     bool clear = max(depth, depthTo) <= ends.x, behind = min(depth, depthTo) >= ends.y;
-    bool whole = level == 0 || (sTo - s <= even && (node << (2 * level)) == cell && float(cell) >= line.begin + u * line.extent - 1e-3 && to < end);
+    bool whole = level == 0 || (sTo - s <= even && (node << (2 * level)) == cell && float(cell) >= curveLine.begin + u * curveLine.extent - 1e-3 && to < end);
+    passed = ends.zw;
+    known = behind && whole;
     if (clear || (behind && ends.z == 1.0)) {
       cell = next;
       u = to;
-      s = sTo;
-      depth = depthTo;
-      walking = u < end && !last;
+      searching = u < end && !last;
 #ifdef ROW_CURVES
       bool up = (next & ((4 << (2 * level)) - 1)) == 0 && next < cells;
       if (up) {
@@ -155,52 +153,34 @@ Dimmed nextDimmed(Airlight light, ViewSegment segment, CurveLine line, float u, 
         ++level;
       }
 #endif
-    } else if (behind && whole) {
-      found = Dimmed(u, to, vec2(ends.z, ends.w));
-      walking = false;
-    } else if (level > 0) {
+    } else if (known || level == 0) {
+      break;
+    } else {
       --level;
       base -= level == 0 ? 0 : (cells + (1 << (2 * level)) - 1) >> (2 * level);
-    } else {
-      // A line stands for the transmittance only where the airlight hardly changes; but at most 64 pieces of a ray along the light.
-      float piece = max(even, (segment.s1 - segment.s0) / 64.0), cut = clamp(parameterAt(segment, s + piece), u, to);
-      if (sTo - s > piece && cut > u) {
-        to = cut;
-        depthTo = linearDepthAt(segment, distanceAt(segment, to));
-      }
-      found = Dimmed(u, to, cellPassed(line, cell, u, to, depth, depthTo));
-      walking = false;
     }
   }
-  return found;
+  if (!searching || u > begin) return Dimmed(searching ? u : end, vec2(1.0, 0.0));
+  if (known) return Dimmed(to, passed);
+  // A line stands for the transmittance only where the airlight hardly changes; but at most 64 pieces of a ray along the light.
+  float s = distanceAt(segment, u), piece = max(even, (segment.s1 - segment.s0) / 64.0), cut = clamp(parameterAt(segment, s + piece), u, to);
+  if (distanceAt(segment, to) - s > piece && cut > u) to = cut;
+  return Dimmed(to, cellPassed(segment, cell, u, to));
 }
 
-// Light of a span of a segment whose visibility is that of a line, behind what dims it.
-Light curvedLight(Airlight light, ViewSegment segment, float u0, float u1, Visibility mean, Visibility moment) {
-#ifdef ROW_CURVES
-  CurveLine line = curveLine(segment, curveRow.alongX, curveRow.mirrored);
-#else
-  vec2 d = (segment.p1.xy - segment.p0.xy) / vec2(shadowMapSize);
-  bool alongX = abs(d.x) >= abs(d.y);
-  CurveLine line = curveLine(segment, alongX, (alongX ? d.x : d.y) < 0.0);
-#endif
-  float s0 = distanceAt(segment, u0), s1 = distanceAt(segment, u1), inverse = 1.0 / max(s1 - s0, 1e-30);
-  Light sum = Light(0.0);
+// Adds the light of a span of a segment whose visibility is that of a line, behind what dims it.
+void addCurved(Airlight light, ViewSegment segment, float u0, float u1, Visibility mean, Visibility moment, inout Light sum) {
   float u = u0;
-  // A clear stretch, which is taken whole, and the dimmed one behind it.
-  for (int guard = 0; guard < 16384 && u < u1; ++guard) {
-    Dimmed next = nextDimmed(light, segment, line, u, u1);
-    for (int k = 0; k < 2; ++k) {
-      float sa = distanceAt(segment, k == 0 ? u : next.from), sb = distanceAt(segment, k == 0 ? next.from : next.to);
-      vec2 passed = k == 0 ? vec2(1.0, 0.0) : next.passed;
-      if (!(sb > sa) || passed.x <= 0.0) continue;
-      // Its part of the visibility's line, times the transmittance's: a mean of t squared is a third.
-      Visibility own = mean + 3.0 * moment * ((sa + sb - s0 - s1) * inverse), ownMoment = moment * ((sb - sa) * inverse);
-      sum += sharedLight(light, segment, sa, sb, own * passed.x + 3.0 * ownMoment * passed.y, own * passed.y + ownMoment * passed.x);
-    }
+  while (u < u1) {
+    Dimmed next = nextDimmed(light, segment, u, u1);
+    float sa = distanceAt(segment, u), sb = distanceAt(segment, next.to);
     u = next.to > u ? next.to : u1;
+    if (!(sb > sa) || next.passed.x <= 0.0) continue;
+    // Its part of the visibility's line, times the transmittance's: a mean of t squared is a third.
+    float s0 = distanceAt(segment, u0), s1 = distanceAt(segment, u1), inverse = 1.0 / max(s1 - s0, 1e-30);
+    Visibility own = mean + 3.0 * moment * ((sa + sb - s0 - s1) * inverse), ownMoment = moment * ((sb - sa) * inverse);
+    addShared(light, segment, sa, sb, own * next.passed.x + 3.0 * ownMoment * next.passed.y, own * next.passed.y + ownMoment * next.passed.x, sum);
   }
-  return sum;
 }
 
 #endif

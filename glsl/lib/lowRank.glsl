@@ -1,6 +1,6 @@
 // Low rank: the airlight of a lit span as a sum of few products, a factor of the camera ray times a difference of prefix
 // sums over the light rays that cross it (Chen 2011, 3.2 and 3.4; effect/src/optics/LowRank.cpp). Takes the place of
-// airlight() in what is included after it.
+// addAirlight() in what is included after it.
 
 uniform sampler2D lowRankRays;   // grid x terms: the ray's factors
 uniform sampler2D lowRankLights; // sets x (2 terms grid): prefix sums, then the light's factors
@@ -75,14 +75,14 @@ Spectrum prefixSum(int term, vec3 place) {
   return c0 + q * (g0 + q * (3.0 * (c1 - c0) - 2.0 * g0 - g1 + q * (2.0 * (c0 - c1) + g0 + g1)));
 }
 
-Spectrum lowRankAirlight(Airlight light, float s0, float s1) {
-  if (!lowRank.valid) return airlight(light, s0, s1);
-  if (!(s1 > s0)) return Spectrum(0.0);
+void addLowRank(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
+  if (!lowRank.valid) addAirlight(light, s0, s1, visibility, sum);
+  if (!lowRank.valid || !(s1 > s0)) return;
   vec3 from = lightPlace(light, s0), to = lightPlace(light, s1);
-  Spectrum sum = Spectrum(0.0);
+  Spectrum own = Spectrum(0.0);
   for (int i = 0; i < kMostTerms; ++i)
-    if (i < lowRankTerms) sum += lowRank.terms[i] * (prefixSum(i, to) - prefixSum(i, from));
-  return lowRank.factor * sum;
+    if (i < lowRankTerms) own += lowRank.terms[i] * (prefixSum(i, to) - prefixSum(i, from));
+  sum += visibility * Light(lowRank.factor * own);
 }
 
-#define airlight lowRankAirlight
+#define addAirlight addLowRank

@@ -2,14 +2,11 @@
 // in the draw that has it (bringsOutside), what lies outside all views.
 
 #if SHADOW_VIEWS > 0 && !defined(SKIPS_NODES)
-Light ownedLight(Airlight light, ViewSegment segment, int slice) { return rowLight(light, segment, slice); }
+void addOwned(Airlight light, ViewSegment segment, int slice, inout Light sum) { addRow(light, segment, slice, sum); }
 #endif
 
-Light rowShadowedLight(Ray ray, float from, float end, int slice) {
-  Airlight light = airlightOf(ray);
-  float s0 = from, s1 = min(end, visibleEnd);
-  litRange(light, s0, s1);
-  return shadowedLight(light, ray, s0, s1, ivec2(firstView, drawnViews), bringsOutside != 0, slice);
+Light rowShadowedLight(vec2 position, float from, float end, int slice) {
+  return shadowedLight(position, from, min(end, visibleEnd), ivec2(firstView, drawnViews), bringsOutside != 0, slice);
 }
 
 #include "lib/stored.glsl"

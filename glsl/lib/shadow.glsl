@@ -4,14 +4,6 @@
 //
 // SHADOW_VIEWS: 0 no shadow map, 1 one view, 2 several. SHADOW_ARRAY, FILTER_BILINEAR, GLASS, CURVES: 0 or 1.
 
-#if GLASS
-#define Visibility vec3 // fraction of the light that passes, per channel
-#define Light vec3
-#else
-#define Visibility float
-#define Light Spectrum
-#endif
-
 #define FADES (SHADOW_VIEWS == 2 && LIGHT_KIND == 0) // cascades may fade into one another
 
 #if SHADOW_VIEWS > 0
@@ -22,7 +14,7 @@
 struct ViewSegment {
   int view;
   float s0, s1;
-  float w0, w1; // homogeneous weights at the ends, > 0
+  float weight; // homogeneous, of the begin over that of the end, > 0
   vec3 p0, p1;
 #if FADES
   vec2 share; // of the light at s0 and s1 that the view decides on; linear between
@@ -66,8 +58,7 @@ ViewSegment viewSegment(int view, Ray ray, float s0, float s1, vec2 share) {
   segment.view = view;
   segment.s0 = s0;
   segment.s1 = s1;
-  segment.w0 = q0.w;
-  segment.w1 = q1.w;
+  segment.weight = q0.w / q1.w;
   segment.p0 = q0.xyz / q0.w;
   segment.p1 = q1.xyz / q1.w;
 #if FADES
@@ -80,9 +71,9 @@ ViewSegment viewSegment(int view, Ray ray, float s0, float s1, vec2 share) {
   return segment;
 }
 
-// Distance along the camera ray at the line parameter u: u = w1 f / (w0 (1 - f) + w1 f) solved for f = (s - s0)/(s1 - s0).
+// Distance along the camera ray at the line parameter u: u = f / (w (1 - f) + f) solved for f = (s - s0) / (s1 - s0).
 float distanceAt(ViewSegment segment, float u) {
-  float f = u * segment.w0 / (segment.w1 + u * (segment.w0 - segment.w1));
+  float f = u * segment.weight / (1.0 - u + u * segment.weight);
   return u >= 1.0 ? segment.s1 : segment.s0 + (segment.s1 - segment.s0) * f;
 }
 
@@ -92,8 +83,7 @@ float distanceAt(ViewSegment segment, float u) {
 // centres (bilinear, coordinates shifted by half a texel so that both kinds have integer corners).
 struct Line {
   vec3 origin, slope; // cell coordinates and depth at u are origin + u slope
-  vec2 inverse;       // u per cell
-  ivec2 direction;    // of the steps along x and y
+  vec2 inverse;       // u per cell; its sign is that of the steps along x and y
   ivec2 last;         // cell
 };
 
@@ -122,7 +112,6 @@ void startWalk(ViewSegment segment, out Line line, out Walk walk) {
   line.origin = vec3(segment.p0.xy - kShift, segment.p0.z);
   vec3 end = vec3(segment.p1.xy - kShift, segment.p1.z);
   line.slope = end - line.origin;
-  line.direction = ivec2(line.slope.x < 0.0 ? -1 : 1, line.slope.y < 0.0 ? -1 : 1);
   ivec2 highest = shadowMapSize - 1;
   line.last = clamp(ivec2(floor(end.xy)), ivec2(kLowest), highest);
   walk.cell = clamp(ivec2(floor(line.origin.xy)), ivec2(kLowest), highest);
@@ -132,7 +121,7 @@ void startWalk(ViewSegment segment, out Line line, out Walk walk) {
   walk.depth = line.origin.z;
   // Along an axis that the line does not move in the next grid line lies at u = 2, which is never reached.
   bvec2 moves = notEqual(extent, ivec2(0));
-  walk.ahead = vec2(walk.cell + max(line.direction, ivec2(0))) - line.origin.xy;
+  walk.ahead = vec2(walk.cell + ivec2(greaterThanEqual(line.slope.xy, vec2(0.0)))) - line.origin.xy;
   walk.ahead = mix(vec2(2.0), walk.ahead, moves);
   line.inverse = mix(vec2(1.0), 1.0 / line.slope.xy, moves);
 }
@@ -146,7 +135,7 @@ float cellEnd(Line line, Walk walk) {
 // Into the next cell, across the nearer grid line.
 void stepCell(Line line, inout Walk walk, float u, float depth) {
   vec2 next = walk.ahead * line.inverse;
-  ivec2 step = next.x < next.y ? ivec2(line.direction.x, 0) : ivec2(0, line.direction.y);
+  ivec2 step = next.x < next.y ? ivec2(line.inverse.x < 0.0 ? -1 : 1, 0) : ivec2(0, line.inverse.y < 0.0 ? -1 : 1);
   walk.cell += step;
   walk.ahead += vec2(step);
   walk.u = u;
@@ -207,12 +196,7 @@ Visibility pieceVisibility(Line line, ivec2 cell, int view, float u, inout float
   vec4 depth = cornerDepths(cell, view);
   uEnd = firstCrossing((depth - line.origin.z) * inverseDepth, u, uEnd);
 #if GLASS
-  ivec2 last = shadowMapSize - 1, low = max(cell, ivec2(0)), high = min(cell + 1, last);
-  vec3 tints[4] = vec3[4](paneTint(low, view), paneTint(ivec2(high.x, low.y), view), paneTint(ivec2(low.x, high.y), view),
-                          paneTint(high, view));
-  vec4 pane = cornerPanes(cell, view);
-  bvec4 clear = bvec4(tints[0] == vec3(1.0), tints[1] == vec3(1.0), tints[2] == vec3(1.0), tints[3] == vec3(1.0));
-  pane = mix(pane, vec4(3e38), clear); // clear glass is no glass
+  vec4 pane = cornersTinted(cell, view);
   uEnd = firstCrossing((pane - line.origin.z) * inverseDepth, u, uEnd);
 #endif
   vec4 receiver = vec4(line.origin.z + line.slope.z * (0.5 * (u + uEnd)));
@@ -223,9 +207,9 @@ Visibility pieceVisibility(Line line, ivec2 cell, int view, float u, inout float
   vec4 litWeights = mix(vec4(0.0), weights, lit);
 #if GLASS
   if (all(lit) && !any(lessThan(pane, receiver))) return vec3(1.0);
-  bvec4 behind = lessThan(pane, receiver);
-  return litWeights.x * (behind.x ? tints[0] : vec3(1.0)) + litWeights.y * (behind.y ? tints[1] : vec3(1.0)) +
-         litWeights.z * (behind.z ? tints[2] : vec3(1.0)) + litWeights.w * (behind.w ? tints[3] : vec3(1.0));
+  vec3 sum = vec3(0.0); // tints are fetched anew: all four would take twelve registers up to here
+  for (int i = 0; i < 4; ++i) sum += litWeights[i] * (pane[i] < receiver.x ? cornerTint(cell, i, view) : vec3(1.0));
+  return sum;
 #else
   return all(lit) ? 1.0 : dot(litWeights, vec4(1.0));
 #endif
@@ -285,21 +269,25 @@ bool takeCell(Line line, int view, inout Walk walk, Visibility current) {
 // 2011, 3.5). Three loops, so that lanes that run together do the same thing at the same time: the innermost only asks
 // whether a cell changes anything; the middle one looks closely at cells that do; the outer one integrates. Four cells an
 // iteration: llvmpipe ends a shader's loops after 65,535 iterations in all.
-Light segmentLight(Airlight light, ViewSegment segment) {
+void addTexels(Airlight light, ViewSegment segment, inout Light sum) {
   int view = segment.view;
   Line line;
   Walk walk;
   startWalk(segment, line, walk);
+#if CURVES
+  vec2 d = (segment.p1.xy - segment.p0.xy) / vec2(shadowMapSize);
+  startCurves(segment, abs(d.x) >= abs(d.y), (abs(d.x) >= abs(d.y) ? d.x : d.y) < 0.0, 0);
+#endif
   // Bounds the loops whatever the arithmetic does: pieces of cells, changes between them, and one look at nodes every few cells.
   int pieces = (kPiecesPerCell + 2) * walk.left + 8 + 1000 * FILTER_BILINEAR;
-  Light sum = Light(0.0);
   Visibility current = Visibility(0.0);
   float from = 0.0;
   bool done = false;
   while (!done) {
-    Visibility weight = Visibility(0.0);
-    float begin = 0.0, end = 0.0;
-    while (!done && weight == Visibility(0.0)) {
+    Visibility weight;
+    float begin, end;
+    bool found = false;
+    while (!found && !done) {
 #ifdef SKIPS_NODES
       if (walk.u >= walk.stop) skipNodes(line, current, walk);
 #endif
@@ -324,13 +312,12 @@ Light segmentLight(Airlight light, ViewSegment segment) {
 #endif
       Visibility visibility = Visibility(0.0);
       if (!done) visibility = pieceVisibility(line, walk.cell, view, walk.u, uEnd);
-      if (visibility != current) {
-        weight = current;
-        begin = from;
-        end = walk.u;
-        current = visibility;
-        from = walk.u;
-      }
+      weight = current;
+      begin = from;
+      end = walk.u;
+      found = visibility != current && current != Visibility(0.0);
+      if (visibility != current) from = walk.u;
+      current = visibility;
       --pieces;
       float depth = line.origin.z + line.slope.z * uEnd;
       if (uEnd < uCell) {
@@ -340,13 +327,13 @@ Light segmentLight(Airlight light, ViewSegment segment) {
         stepCell(line, walk, uEnd, depth);
       }
     }
+    if (!found) break;
 #if FADES || CURVES
-    sum += spanLight(light, segment, begin, end, weight, Visibility(0.0));
+    addSpan(light, segment, begin, end, weight, Visibility(0.0), sum);
 #else
-    sum += Light(weight) * Light(airlight(light, distanceAt(segment, begin), distanceAt(segment, end)));
+    addAirlight(light, distanceAt(segment, begin), distanceAt(segment, end), weight, sum);
 #endif
   }
-  return sum;
 }
 
 #endif

@@ -53,4 +53,15 @@ vec4 cornerPanes(ivec2 cell, int view) {
   return vec4(paneDepth(low, view), paneDepth(ivec2(high.x, low.y), view), paneDepth(ivec2(low.x, high.y), view),
               paneDepth(high, view));
 }
+
+// The same where clear glass is no glass.
+float tintedDepth(ivec2 texel, int view) { return paneTint(texel, view) == vec3(1.0) ? 3e38 : paneDepth(texel, view); }
+vec4 cornersTinted(ivec2 cell, int view) {
+  ivec2 last = shadowMapSize - 1;
+  ivec2 low = max(cell, ivec2(0)), high = min(cell + 1, last);
+  return vec4(tintedDepth(low, view), tintedDepth(ivec2(high.x, low.y), view), tintedDepth(ivec2(low.x, high.y), view),
+              tintedDepth(high, view));
+}
+
+vec3 cornerTint(ivec2 cell, int i, int view) { return paneTint(clamp(cell + ivec2(i & 1, i >> 1), ivec2(0), shadowMapSize - 1), view); }
 #endif

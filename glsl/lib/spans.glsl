@@ -9,10 +9,10 @@ float langevin(float x) {
 }
 vec3 langevin(vec3 x) { return vec3(langevin(x.x), langevin(x.y), langevin(x.z)); }
 
+// Adds the light of a span where the visibility has a mean and a first moment (from -1 to 1 over the span), as that of a line.
 #if LIGHT_KIND == 0
-// Light of a span where the visibility has a mean and a first moment (from -1 to 1 over the span), as that of a line. With
-// fades or curves spans may be long; else the airlight falls along a line, too.
-Light weightedLight(Airlight light, float s0, float s1, Visibility mean, Visibility moment) {
+// With fades or curves spans may be long; else the airlight falls along a line, too.
+void addWeighted(Airlight light, float s0, float s1, Visibility mean, Visibility moment, inout Light sum) {
   bool attenuated = light.path + 0.5 * (s0 + s1) * light.pathSlope > 0.0;
   Spectrum fall = SPECTRUM(extinction) * ((attenuated ? 1.0 + light.pathSlope : 1.0) * (s1 - s0));
 #if FADES || CURVES
@@ -20,19 +20,26 @@ Light weightedLight(Airlight light, float s0, float s1, Visibility mean, Visibil
 #else
   Spectrum towards = 0.5 * fall;
 #endif
-  return Light(airlight(light, s0, s1)) * (mean - moment * towards);
+  Light own = Light(0.0);
+  addAirlight(light, s0, s1, Visibility(1.0), own);
+  sum += own * (mean - moment * towards);
 }
 #else
-Light weightedLight(Airlight light, float s0, float s1, Visibility mean, Visibility moment) {
-  Light sum = Light(airlight(light, s0, s1));
-  if (moment == Visibility(0.0)) return mean * sum;
-  Light front = Light(airlight(light, s0, 0.5 * (s0 + s1)));
-  return mean * sum + 2.0 * moment * (sum - 2.0 * front);
+// As two halves, unless the visibility is even.
+void addWeighted(Airlight light, float s0, float s1, Visibility mean, Visibility moment, inout Light sum) {
+  float end = moment == Visibility(0.0) ? s1 : 0.5 * (s0 + s1);
+  Visibility own = end < s1 ? mean - 2.0 * moment : mean, behind = mean + 2.0 * moment;
+  while (s0 < s1) {
+    addAirlight(light, s0, end, own, sum);
+    own = behind;
+    s0 = end;
+    end = s1;
+  }
 }
 #endif
 
 // The same times the view's share there.
-Light sharedLight(Airlight light, ViewSegment segment, float s0, float s1, Visibility mean, Visibility moment) {
+void addShared(Airlight light, ViewSegment segment, float s0, float s1, Visibility mean, Visibility moment, inout Light sum) {
 #if FADES
   // Visibility and share as lines a + b t on [-1, 1]; the mean of t squared is a third.
   float scale = (segment.share.y - segment.share.x) / max(segment.s1 - segment.s0, 1e-30);
@@ -41,13 +48,13 @@ Light sharedLight(Airlight light, ViewSegment segment, float s0, float s1, Visib
   moment = moment * middle + mean * (slope / 3.0);
   mean = inShare;
 #endif
-  return weightedLight(light, s0, s1, mean, moment);
+  addWeighted(light, s0, s1, mean, moment, sum);
 }
 
 // The line parameter at a distance along the camera ray: the inverse of distanceAt.
 float parameterAt(ViewSegment segment, float s) {
   float f = (s - segment.s0) / max(segment.s1 - segment.s0, 1e-30);
-  return f >= 1.0 ? 1.0 : segment.w1 * f / (segment.w0 * (1.0 - f) + segment.w1 * f);
+  return f >= 1.0 ? 1.0 : f / (segment.weight * (1.0 - f) + f);
 }
 
 #if CURVES
@@ -55,10 +62,10 @@ float parameterAt(ViewSegment segment, float s) {
 #endif
 
 // The same from line parameter u0 to u1 of a segment, behind the smoke and hair that dim the light.
-Light spanLight(Airlight light, ViewSegment segment, float u0, float u1, Visibility mean, Visibility moment) {
+void addSpan(Airlight light, ViewSegment segment, float u0, float u1, Visibility mean, Visibility moment, inout Light sum) {
 #if CURVES
-  return curvedLight(light, segment, u0, u1, mean, moment);
+  addCurved(light, segment, u0, u1, mean, moment, sum);
 #else
-  return sharedLight(light, segment, distanceAt(segment, u0), distanceAt(segment, u1), mean, moment);
+  addShared(light, segment, distanceAt(segment, u0), distanceAt(segment, u1), mean, moment, sum);
 #endif
 }

@@ -16,12 +16,13 @@ float lampSine(Ray ray) {
 #endif
 }
 
-// Channels are held as half floats, scaled so that no light of the scene leaves their range (effect/src/optics/Slices.cpp).
-vec3 storedLight(Light light, Ray ray) {
+// The light of a ray with that sine. Channels are held as half floats, scaled so that no light of the scene leaves their range
+// (effect/src/optics/Slices.cpp).
+vec3 storedLight(Light light, float sine) {
 #if MONOCHROME && !GLASS
-  return vec3(light) * lampSine(ray);
+  return vec3(light) * sine;
 #else
-  return min(storedScale * vec3(light) * lampSine(ray), vec3(65504.0));
+  return min(storedScale * vec3(light) * sine, vec3(65504.0));
 #endif
 }
 

@@ -28,12 +28,10 @@ uniform sampler2D rowMoments;
 
 // A ray on its row: u runs from 0 to 1 over the segment, the row index at u is begin + u * extent.
 struct RowLine {
-  vec2 origin, step; // of the row, texels
   float begin, inverse; // inverse: 1 / extent, or 0 if the ray does not move along the row
   float depth, slope;   // coded
   int row;  // where row textures hold it
   int last; // index of the last texel
-  int firstWhole; // first texel that the ray crosses whole
 #ifdef TINT_SUMS
   bool tintSums;  // the ray may use them
 #endif
@@ -44,7 +42,7 @@ const int kMostEven = 4; // changedParts.frag counts on nodes of 256 texels at m
 
 struct RowWalk {
   int index;
-  float u, depth;
+  float u;
 };
 
 // Coded depth of the ray; nothing lies behind what a texel without a caster holds.
@@ -53,10 +51,8 @@ float rowDepth(RowLine line, float u) { return min(line.depth + line.slope * u, 
 void startRow(Airlight light, ViewSegment segment, int slice, out RowLine line, out RowWalk walk) {
   vec4 row = rowLine(segment.view, slice);
   line.row = rowOf(segment.view, slice);
-  line.origin = row.xy;
-  line.step = row.zw;
 #if CURVES && defined(ROW_CURVES)
-  curveRow = CurveRow(isAlongX(row), (isAlongX(row) ? row.z : row.w) < 0.0, line.row);
+  startCurves(segment, isAlongX(row), (isAlongX(row) ? row.z : row.w) < 0.0, line.row);
 #endif
   int highest = rowLast(segment.view, slice);
   float scale = 1.0 / dot(row.zw, row.zw);
@@ -65,9 +61,8 @@ void startRow(Airlight light, ViewSegment segment, int slice, out RowLine line, 
   walk.index = clamp(int(floor(line.begin)), 0, highest);
   line.last = clamp(int(floor(end)), walk.index, highest);
   line.inverse = line.last > walk.index ? 1.0 / (end - line.begin) : 0.0;
-  line.firstWhole = int(ceil(line.begin));
   // The longest texel of a projection that may be a perspective one.
-  float texel = (segment.s1 - segment.s0) * line.inverse * max(segment.w0 / segment.w1, segment.w1 / segment.w0);
+  float texel = (segment.s1 - segment.s0) * line.inverse * max(segment.weight, 1.0 / segment.weight);
   line.evenLevel = min(int(floor(0.5 * log2(clamp(evenLength(light, averageThreshold) / max(texel, 1e-30), 1.0, 1e9)))), kMostEven);
 #ifdef TINT_SUMS
   line.tintSums = lowRank.valid;
@@ -78,18 +73,11 @@ void startRow(Airlight light, ViewSegment segment, int slice, out RowLine line, 
   line.depth = segment.p0.z * rowCodeScale + rowCodeOffset;
   line.slope = (segment.p1.z - segment.p0.z) * rowCodeScale;
   walk.u = 0.0;
-  walk.depth = rowDepth(line, 0.0);
 }
 
 // u where the ray leaves the texels before `index`.
 float rowEnd(RowLine line, RowWalk walk, int index) {
   return index > line.last ? 1.0 : clamp((float(index) - line.begin) * line.inverse, walk.u, 1.0);
-}
-
-void advanceRow(RowLine line, inout RowWalk walk, int index, float u) {
-  walk.index = index;
-  walk.u = u;
-  walk.depth = rowDepth(line, u);
 }
 
 const float kMixed = 0.5;
@@ -105,14 +93,15 @@ const float kAverage = 2.0;
 // True if the ray crosses all of a node, between the depths that split it, and the airlight is even enough there for the
 // node's average to stand for it; or (TINT_SUMS) whatever the airlight.
 bool isAverage(RowLine line, RowWalk walk, int level, int next, float end, vec4 split) {
-  bool inside = min(walk.depth, end) > split.y && max(walk.depth, end) <= split.z;
+  float begin = rowDepth(line, walk.u);
+  bool inside = min(begin, end) > split.y && max(begin, end) <= split.z;
 #if FILTER_BILINEAR || GLASS
   if (walk.u > (float(walk.index) - line.begin) * line.inverse + 1e-6 * line.inverse) return false; // within a texel
 #endif
 #ifdef TINT_SUMS
-  return inside && line.tintSums && walk.index >= line.firstWhole && next <= line.last;
+  return inside && line.tintSums && float(walk.index) >= line.begin && next <= line.last;
 #endif
-  return inside && level <= line.evenLevel && walk.index >= line.firstWhole && next <= line.last + 1;
+  return inside && level <= line.evenLevel && float(walk.index) >= line.begin && next <= line.last + 1;
 }
 
 Average averageAt(int node, int row) {
@@ -123,37 +112,34 @@ Average averageAt(int node, int row) {
 #endif
 }
 
+// A node of the tree: its place among the row's, and the texel behind its last one.
+struct Node {
+  int index, end;
+};
+
 // Down the tree while a node is mixed, along the row and up again while nodes keep `current`: stackless, one step an
 // iteration. Returns the visibility of the node that ended the walk: kMixed before texels to be looked at one by one,
-// kAverage before a node, up to `nodeEnd`, whose average (`average`) stands for it.
-float walkNodes(RowLine line, inout RowWalk walk, float current, out int nodeEnd, out int average) {
+// kAverage before a node whose average stands for it.
+float walkNodes(RowLine line, inout RowWalk walk, float current, out Node node) {
   float found = kMixed;
   int level = 2, base = 0; // base: where the level begins
   bool walking = treeLevels > 0 && (walk.index & 15) == 0 && walk.index <= line.last;
   while (walking) {
     VISIT
-    int node = walk.index >> (2 * level), next = (node + 1) << (2 * level);
+    int at = walk.index >> (2 * level), next = (at + 1) << (2 * level);
     float u = rowEnd(line, walk, next), end = rowDepth(line, u);
-    vec4 split = texelFetch(rowTree, ivec2(base + node, line.row), 0);
-    found = boundsVisibility(walk.depth, end, split.xw);
-#ifdef TINT_SUMS
-    if (current == kAverage && isAverage(line, walk, level, next, end, split)) found = kAverage;
-#endif
-    nodeEnd = next;
-    average = base + node;
-    if (found == current) {
-      walk = RowWalk(next, u, end);
-      bool up = level < treeLevels && (next & ((4 << (2 * level)) - 1)) == 0;
-      base += up ? rowLength >> (2 * level) : 0;
-      level += up ? 1 : 0;
-      walking = walk.index <= line.last;
-    } else {
-      if (found == kMixed && isAverage(line, walk, level, next, end, split)) found = kAverage;
-      walking = found == kMixed && level > 2;
-      --level;
-      base -= walking ? rowLength >> (2 * level) : 0;
-    }
+    vec4 split = texelFetch(rowTree, ivec2(base + at, line.row), 0);
+    found = boundsVisibility(rowDepth(line, walk.u), end, split.xw);
+    if ((found == kMixed || current == kAverage) && isAverage(line, walk, level, next, end, split)) found = kAverage;
+    bool taken = found == current, up = taken && level < treeLevels && (next & ((4 << (2 * level)) - 1)) == 0, down = !taken && found == kMixed && level > 2;
+    if (taken) walk = RowWalk(next, u);
+    walking = taken ? walk.index <= line.last : down;
+    base += up ? rowLength >> (2 * level) : 0;
+    level += up ? 1 : down ? -1 : 0;
+    base -= down ? rowLength >> (2 * level) : 0;
   }
+  int at = walk.index >> (2 * level);
+  node = Node(base + at, (at + 1) << (2 * level));
   return found;
 }
 

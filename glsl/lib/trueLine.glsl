@@ -12,15 +12,15 @@ void skipNodes(Line line, Visibility current, inout Walk walk) {
   if (treeLevels == 0) return;
   float state = current == Visibility(1.0) ? 1.0 : current == Visibility(0.0) ? 0.0 : -1.0;
   float extent = trueRow.inverse > 0.0 ? 1.0 / trueRow.inverse : 0.0;
-  RowWalk at = RowWalk(clamp(int(floor(trueRow.begin + walk.u * extent)), 0, trueRow.last), walk.u, rowDepth(trueRow, walk.u));
+  RowWalk at = RowWalk(clamp(int(floor(trueRow.begin + walk.u * extent)), 0, trueRow.last), walk.u);
   int level = 1, base = 0;
   bool walking = walk.left > 0;
   while (walking) {
     int node = at.index >> (2 * level), next = (node + 1) << (2 * level);
     float u = rowEnd(trueRow, at, next);
-    float found = boundsVisibility(at.depth, rowDepth(trueRow, u), texelFetch(rowTree, ivec2(base + node, trueRow.row), 0).rg);
+    float found = boundsVisibility(rowDepth(trueRow, at.u), rowDepth(trueRow, u), texelFetch(rowTree, ivec2(base + node, trueRow.row), 0).rg);
     if (found == state) {
-      advanceRow(trueRow, at, next, u);
+      at = RowWalk(next, u);
       bool up = level < treeLevels && (next & ((4 << (2 * level)) - 1)) == 0;
       base += up ? rowLength >> (2 * level) : 0;
       level += up ? 1 : 0;
@@ -38,10 +38,10 @@ void skipNodes(Line line, Visibility current, inout Walk walk) {
   if (walk.stop >= 1.0) walk.stop = 2.0; // the line's last cells, however they round
 }
 
-Light ownedLight(Airlight light, ViewSegment segment, int slice) {
+void addOwned(Airlight light, ViewSegment segment, int slice, inout Light sum) {
   RowWalk unused;
   startRow(light, segment, slice, trueRow, unused);
-  return segmentLight(light, segment);
+  addTexels(light, segment, sum);
 }
 
 #endif

@@ -1,8 +1,8 @@
 // Which shadow view a stretch of a camera ray belongs to, and how cascades fade into one another. Included by shadow.glsl.
 
-// What a view's own segment contributes: texel by texel (segmentLight), or along a slice's row (rowLight).
+// What a view's own segment contributes: texel by texel (addTexels), or along a slice's row (addRow).
 #if SHADOW_VIEWS > 0
-Light ownedLight(Airlight light, ViewSegment segment, int slice);
+void addOwned(Airlight light, ViewSegment segment, int slice, inout Light sum);
 #endif
 
 #ifndef FADE_STEPS
@@ -42,22 +42,23 @@ float viewWeight(int view, Ray ray, float s) {
 
 // Where a view that owns [s, end] fades, the next view that reaches there has the rest of the weight: returns that one, or
 // -1, and cuts `end` so that the owner's weights at the ends of the piece stand for all of it.
-int fadeInto(int owner, Ray ray, vec2 owned[kMostOwned], float s0, float s1, float s, inout float end, out vec2 weight) {
+int fadeInto(int owner, Ray ray, float s0, float s1, float s, inout float end, out vec2 weight) {
   int next = -1;
   weight = vec2(1.0);
   for (int i = owner + 1; i < viewCount && next < 0; ++i) {
-    if (owned[i].y <= s || owned[i].y <= owned[i].x) continue;
-    if (owned[i].x <= s) next = i;
-    end = min(end, owned[i].x <= s ? owned[i].y : owned[i].x);
+    vec2 own = viewInterval(i, ray, s, s1, false);
+    if (own.y <= own.x) continue;
+    if (own.x <= s) next = i;
+    end = min(end, own.x <= s ? own.y : own.x);
   }
   if (next < 0) return -1;
-  vec2 whole = wholeInterval(owner, ray, s0, s1);
+  vec2 own = viewInterval(owner, ray, s0, s1, false), whole = wholeInterval(owner, ray, s0, s1);
   bool hasWhole = whole.y > whole.x, before = hasWhole && s < whole.x, behind = hasWhole && s >= whole.y;
   if (hasWhole && !before && !behind) {
     end = min(end, whole.y);
     return -1;
   }
-  float first = behind ? whole.y : owned[owner].x, last = before ? whole.x : owned[owner].y;
+  float first = behind ? whole.y : own.x, last = before ? whole.x : own.y;
   end = min(min(end, last), s + max((last - first) / float(hasWhole ? kFadeSteps : kCornerSteps), 1e-6 * abs(s)));
   weight = vec2(viewWeight(owner, ray, s), viewWeight(owner, ray, end));
   return next;
@@ -65,58 +66,80 @@ int fadeInto(int owner, Ray ray, vec2 owned[kMostOwned], float s0, float s1, flo
 
 #endif
 
-// In-scattered light of [s0, s1] of the ray, shadowed: each view's own part walked, the rest lit or dark. Of the views just
-// `views.y` from view `views.x` on; outside: what is in no view, too. The slice is for ownedLight.
-Light shadowedLight(Airlight light, Ray ray, float s0, float s1, ivec2 views, bool outside, int slice) {
-  if (!(s1 > s0)) return Light(0.0);
+// In-scattered light of [s0, s1] of the ray through a window position, shadowed: each view's own part walked, the rest lit or dark. Of
+// the views just `views.y` from view `views.x` on; outside: what is in no view, too. The slice is for addOwned. What of the ray a walk
+// does not need is made anew behind it, where it is needed again: so no registers hold it meanwhile.
 #if SHADOW_VIEWS == 0
-  return Light(airlight(light, s0, s1));
-#else
-#if SHADOW_VIEWS == 1
-  const int kViews = 1;
-#else
-  int kViews = viewCount;
-#endif
-  bool litOutside = isLitOutside != 0;
-  // Intervals of the views and, where the outside is dark, of the lit parts before their near planes.
-  vec2 owned[kMostOwned];
-  int count = litOutside ? kViews : 2 * kViews;
-  for (int i = 0; i < count; ++i) {
-    vec2 interval = viewInterval(i < kViews ? i : i - kViews, ray, s0, s1, i >= kViews);
-    // Not owned[i]: where pixels of a quad have left a loop before the others, softpipe stores at the i of one of those.
-#define STORE(k) owned[k] = i == k ? interval : owned[k];
-    STORE(0) STORE(1)
-#if SHADOW_VIEWS == 2
-    STORE(2) STORE(3) STORE(4) STORE(5) STORE(6) STORE(7) STORE(8) STORE(9) STORE(10) STORE(11)
-#endif
+
+Light shadowedLight(vec2 position, float s0, float s1, ivec2 views, bool outside, int slice) {
+  Light sum = Light(0.0);
+  Airlight light = airlightOf(cameraRay(position));
+  litRange(light, s0, s1);
+  addAirlight(light, s0, s1, Visibility(1.0), sum);
+  return sum;
+}
+
+#elif SHADOW_VIEWS == 1
+
+Light shadowedLight(vec2 position, float s0, float s1, ivec2 views, bool outside, int slice) {
+  Light sum = Light(0.0);
+  if (s1 > s0) {
+    Ray ray = cameraRay(position);
+    Airlight light = airlightOf(ray);
+    litRange(light, s0, s1);
+    vec2 own = viewInterval(0, ray, s0, s1, false);
+    if (!(own.y > own.x)) own = vec2(max(s0, s1));
+    // What is lit without a look at the map: before and behind the view or, where the outside is dark, before the near plane.
+    vec2 before = isLitOutside != 0 ? vec2(s0, own.x) : viewInterval(0, ray, s0, s1, true);
+    vec2 behind = isLitOutside != 0 ? vec2(own.y, s1) : vec2(0.0);
+    for (int k = 0; k < 2; ++k) {
+      vec2 span = k == 0 ? before : behind;
+      if (outside) addAirlight(light, span.x, span.y, Visibility(1.0), sum);
+    }
+    if (own.y > own.x) addOwned(light, viewSegment(0, ray, own.x, own.y, vec2(1.0)), slice, sum);
   }
+  return sum;
+}
+
+#else
+
+// The part of the ray that a view has or, beyond the views, that one has between the light and its near plane.
+vec2 ownInterval(int owner, Ray ray, float s0, float s1) {
+  bool beforeNear = owner >= viewCount;
+  return viewInterval(beforeNear ? owner - viewCount : owner, ray, s0, s1, beforeNear);
+}
+
+Light shadowedLight(vec2 position, float s0, float s1, ivec2 views, bool outside, int slice) {
   Light sum = Light(0.0);
   float s = s0;
   int turn = 0; // of the two views that share a fade
   for (int guard = 0; guard < kMostPieces && s < s1; ++guard) {
+    Ray ray = cameraRay(position);
+    Airlight light = airlightOf(ray);
+    float first = s0, last = s1;
+    litRange(light, first, last);
+    s = max(s, first);
     // The next piece that this draw walks; what comes before it is cheap.
-    int view = -1;
+    bool litOutside = isLitOutside != 0;
+    int view = -1, owners = litOutside ? viewCount : 2 * viewCount;
     vec2 share = vec2(0.0);
     float from = s, to = s;
-    for (int i = 0; i < kMostPieces && view < 0 && s < s1; ++i) {
+    for (int i = 0; i < kMostPieces && view < 0 && s < last; ++i) {
       int owner = -1;
-      float end = s1;
-      for (int k = 0; k < count && owner < 0; ++k) {
-        if (owned[k].y <= s || owned[k].y <= owned[k].x) continue;
-        if (owned[k].x <= s) {
-          owner = k;
-          end = min(end, owned[k].y);
-        } else {
-          end = min(end, owned[k].x);
-        }
+      float end = last;
+      for (int k = 0; k < owners && owner < 0; ++k) {
+        vec2 own = ownInterval(k, ray, s, last);
+        if (own.y <= own.x) continue;
+        if (own.x <= s) owner = k;
+        end = min(end, own.x <= s ? own.y : own.x);
       }
-      bool inView = owner >= 0 && owner < kViews;
+      bool inView = owner >= 0 && owner < viewCount;
       int next = -1;
       vec2 weight = vec2(1.0);
 #if FADES
-      if (inView && cascadeFade > 0.0) next = fadeInto(owner, ray, owned, s0, s1, s, end, weight);
+      if (inView && cascadeFade > 0.0) next = fadeInto(owner, ray, first, last, s, end, weight);
 #endif
-      if (outside && !inView && (owner >= 0 || litOutside)) sum += Light(airlight(light, s, end));
+      if (outside && !inView && (owner >= 0 || litOutside)) addAirlight(light, s, end, Visibility(1.0), sum);
       int candidate = turn == 0 ? owner : next;
       share = turn == 0 ? weight : 1.0 - weight;
       if (inView && share != vec2(0.0) && candidate >= views.x && candidate < views.x + views.y) view = candidate;
@@ -125,8 +148,10 @@ Light shadowedLight(Airlight light, Ray ray, float s0, float s1, ivec2 views, bo
       turn = turn == 0 && next >= 0 ? 1 : 0;
       s = turn == 1 ? s : end;
     }
-    if (view >= 0) sum += ownedLight(light, viewSegment(view, ray, from, to, share), slice);
+    if (view < 0) break;
+    addOwned(light, viewSegment(view, ray, from, to, share), slice, sum);
   }
   return sum;
-#endif
 }
+
+#endif

@@ -10,7 +10,7 @@
 #include "lib/airlight.glsl"
 #include "lib/shadow.glsl"
 #if SHADOW_VIEWS > 0
-Light ownedLight(Airlight light, ViewSegment segment, int slice) { return segmentLight(light, segment); }
+void addOwned(Airlight light, ViewSegment segment, int slice, inout Light sum) { addTexels(light, segment, sum); }
 #endif
 
 layout(location = 0, index = 0) out vec4 outInscatter;
@@ -26,27 +26,20 @@ vec2 nextEnd(float from) {
   return next;
 }
 
-// Inscatter along the ray, as a mean over the pixel's samples: the stretch up to the next end belongs to all samples that
-// end there or behind. So no stretch is walked twice.
-vec3 inscatterOf(Ray ray) {
-  Airlight light = airlightOf(ray);
+// As a mean over the pixel's samples: the stretch up to the next end belongs to all samples that end there or behind. So no
+// stretch is walked twice.
+void main() {
   Light sum = Light(0.0);
   float from = 0.0;
   for (int k = 0; k < depthSampleCount; ++k) {
     vec2 next = nextEnd(from);
     if (next.y == 0.0) break;
-    float s0 = from, s1 = next.x;
-    from = s1;
-    litRange(light, s0, s1);
-    sum += shadowedLight(light, ray, s0, s1, ivec2(0, MAX_SHADOW_VIEWS), true, 0) * (next.y / float(depthSampleCount));
+    sum += shadowedLight(gl_FragCoord.xy, from, next.x, ivec2(0, MAX_SHADOW_VIEWS), true, 0) * (next.y / float(depthSampleCount));
+    from = next.x;
   }
-  return min(lightColour * vec3(sum), vec3(lightCeiling));
-}
-
-void main() {
+  outInscatter = vec4(min(lightColour * vec3(sum), vec3(lightCeiling)), 0.0);
   vec3 transmittance = vec3(0.0);
   for (int k = 0; k < depthSampleCount; ++k)
     transmittance += transmittanceTo(sampleEndAt(gl_FragCoord.xy, k)) / float(depthSampleCount);
-  outInscatter = vec4(inscatterOf(cameraRay(gl_FragCoord.xy)), 0.0);
   outTransmittance = vec4(transmittance, 1.0);
 }

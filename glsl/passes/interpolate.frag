@@ -1,5 +1,5 @@
 // Interpolate: inscatter of every sample, linearly between the nearest march samples of its slice; there is no break
-// between them. Reads the slice table, sampleEnds, marks, extraOffsets, marched (slices x segments) and extra (slices x samples / 4).
+// between them. Reads the slice table, sampleEnds, marks, extraOffsets, marched (slices x segments) and extra (slices x samples / 2).
 // Writes epipolarInscatter: slices x samples, with the
 // sample's end coordinate (lib/stored.glsl).
 #include "shared.glsl"
@@ -16,8 +16,7 @@ uniform sampler2D extraOffsets;
 uniform sampler2D marched;
 uniform sampler2D extra;
 #if !MONOCHROME || GLASS
-uniform sampler2D extraGreen;
-uniform sampler2D extraBlue;
+uniform sampler2D extraSecond;
 #endif
 #ifdef CHANGED
 uniform sampler2D changedSegments;
@@ -27,12 +26,13 @@ layout(location = 0) out vec4 outInscatter;
 // Inscatter of a marked sample: bit `bit` of segment s of the chunk.
 vec3 marchedAt(int slice, int chunk, int offset, ivec4 masks, int s, int bit) {
   int rank = extraRank(masks, 16 * s + bit);
-  ivec2 at = ivec2(slice, offset + (rank >> 2));
+  ivec2 at = ivec2(slice, offset + (rank >> 1));
   if (bit == 0) return texelFetch(marched, ivec2(slice, 4 * chunk + s), 0).rgb;
 #if MONOCHROME && !GLASS
-  return vec3(texelFetch(extra, at, 0)[rank & 3]);
+  vec2 both = texelFetch(extra, at, 0).rg;
+  return vec3((rank & 1) == 0 ? both.x : both.y);
 #else
-  return vec3(texelFetch(extra, at, 0)[rank & 3], texelFetch(extraGreen, at, 0)[rank & 3], texelFetch(extraBlue, at, 0)[rank & 3]);
+  return (rank & 1) == 0 ? texelFetch(extra, at, 0).rgb : texelFetch(extraSecond, at, 0).rgb;
 #endif
 }
 

@@ -45,22 +45,23 @@ Target pixelTarget() {
   return Target(gl_FragCoord.xy, neighbourSlices(sliceCoordinate(gl_FragCoord.xy) + 0.5).x, end, true);
 }
 
-vec3 phaseOf(Ray ray) {
+// What depends on the ray's direction alone: the sine by which a sample's light is stored, or the phase function of a pixel's.
+Spectrum factorOf(Ray ray) {
+  if (isImage == 0) return Spectrum(lampSine(ray));
 #if LIGHT_KIND == 0
-  return vec3(phaseAlong(ray));
+  return phaseAlong(ray);
 #else
-  return vec3(1.0);
+  return Spectrum(1.0);
 #endif
 }
 
 void main() {
   Target target = pixelTarget();
   if (isImage == 0) target = sampleTarget();
-  Ray ray = cameraRay(target.position);
   if (!target.marched) discard;
   float end = target.marched ? max(target.end, 0.0) : 0.0;
-  Light light = rowShadowedLight(ray, 0.0, end, target.slice);
-  outInscatter = vec4(storedLight(light, ray), 0.0);
-  if (isImage != 0) outInscatter = vec4(min(lightColour * phaseOf(ray) * vec3(light), vec3(lightCeiling)), 0.0);
+  Light light = rowShadowedLight(target.position, 0.0, end, target.slice);
+  Spectrum factor = factorOf(cameraRay(target.position));
+  outInscatter = vec4(isImage == 0 ? storedLight(light, vec3(factor).x) : min(lightColour * vec3(factor) * vec3(light), vec3(lightCeiling)), 0.0);
   outTransmittance = vec4(transmittanceTo(end), 1.0);
 }

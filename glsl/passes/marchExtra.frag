@@ -1,7 +1,7 @@
 // March extra: inscatter of one light, through the shadow views of a draw, at the marked samples between the regular ones. They come
-// packed, four to a fragment. Two neighbours among them, the sides of a break, say, share one ray: its light up to one
-// sample's end is part of that up to the next. Reads slice table, sampleEnds, marks, extraOffsets, row textures. Writes extra: slices x
-// samples / 4, four samples in RGBA32F (grey) or in three RGBA16F, one a channel; added up over the draws.
+// packed, two to a fragment. If those are neighbours, the sides of a break, say, they share one ray: its light up to the nearer
+// end is part of that up to the other. Reads slice table, sampleEnds, marks, extraOffsets, row textures. Writes extra: slices x
+// samples / 2, both in RG32F (grey) or each in an RGBA16F of its own; added up over the draws.
 #define ROW_CURVES
 #define PHASE_APART
 #include "shared.glsl"
@@ -21,91 +21,55 @@ uniform sampler2D changedSegments;
 flat in int isPart;
 layout(location = 0) out vec4 outFirst;
 #if !MONOCHROME || GLASS
-layout(location = 1) out vec4 outGreen;
-layout(location = 2) out vec4 outBlue;
+layout(location = 1) out vec4 outSecond;
 #endif
 
-const int kNone = 1 << 20; // far from every sample
+float endOf(int slice, int index) { return max(texelFetch(sampleEnds, ivec2(slice, index), 0).r, 0.0); }
 
-// The samples in a chunk whose ranks are first, first + 1, ..., or kNone, as numbers in the chunk.
-ivec4 packedSamples(ivec4 masks, int first) {
-  ivec4 found = ivec4(kNone);
-  int rank = 0;
-  for (int s = 0; s < 4; ++s) {
-    int mask = masks[s] & ~1, count = popcount(mask);
-    if (rank + count <= first || rank >= first + 4) mask = 0;
-    else count = 0;
-    rank += count;
-    while (mask != 0) {
-      int bit = lowestBit(mask);
-      for (int k = 0; k < 4; ++k)
-        if (rank == first + k) found[k] = 16 * s + bit;
-      mask &= mask - 1;
-      ++rank;
-    }
-  }
-  return found;
-}
+bool isChanged(int slice, int index) { return isPart == 0 || texelFetch(changedSegments, ivec2(slice, index / 16), 0).r > 0.0; }
 
-// Of two neighbours that share a ray the first and the last. Longer runs would save more, but show as steps where it is
-// the direction that matters.
-ivec4 runFirst(ivec4 index) {
-  return ivec4(index.x, index.y == index.x + 1 ? index.x : index.y, index.z, index.w == index.z + 1 ? index.z : index.w);
-}
-ivec4 runLast(ivec4 index) {
-  return ivec4(index.y == index.x + 1 ? index.y : index.x, index.y, index.w == index.z + 1 ? index.w : index.z, index.w);
-}
-
-void main() {
-  int slice = int(gl_FragCoord.x), samples = sliceSamples(slice), chunk = 0, offset = 0;
-  if (gl_FragCoord.y > texelFetch(extraOffsets, ivec2(slice, samplesPerSlice / 64), 0).r) discard;
+// The samples of a fragment, the same one twice if there is but one, or -1: none, or none that has changed. Of neighbours, which share
+// a ray, the one that ends first comes first. Longer runs would save more, but show as steps where it is the direction that matters.
+ivec2 samplesOf(int slice, int fragment) {
+  int chunk = 0, offset = 0;
   for (int i = 1; i < samplesPerSlice / 64; ++i) { // the last chunk that begins here or before
     int begin = int(texelFetch(extraOffsets, ivec2(slice, i), 0).r);
-    if (begin > int(gl_FragCoord.y)) break;
+    if (begin > fragment) break;
     chunk = i;
     offset = begin;
   }
-  vec4 line = sliceEnds(slice);
-  ivec4 index = packedSamples(masksOf(texelFetch(marks, ivec2(slice, chunk), 0)), 4 * (int(gl_FragCoord.y) - offset));
-  vec4 ends;
-  for (int k = 0; k < 4; ++k)
-    ends[k] = index[k] == kNone ? 3e38 : max(texelFetch(sampleEnds, ivec2(slice, 64 * chunk + index[k]), 0).r, 0.0);
-  ivec4 first = runFirst(index), last = runLast(index);
-  vec3 stored[4] = vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-  bvec4 waiting = notEqual(index, ivec4(kNone));
-  bool changed = isPart == 0;
-  for (int k = 0; k < 4; ++k)
-    changed = changed || (waiting[k] && texelFetch(changedSegments, ivec2(slice, 4 * chunk + (index[k] >> 4)), 0).r > 0.0);
-  if (!changed) waiting = bvec4(false);
-  Light sum = Light(0.0);
-  float from = 0.0;
-  int run = -1;
-  while (any(waiting)) {
-    // The nearest end of the first run that is not finished.
-    int next = -1, nextRun = kNone, nextLast = kNone;
-    float end = 3e38;
-    for (int k = 0; k < 4; ++k) {
-      if (!waiting[k] || (next >= 0 && (first[k] != nextRun || ends[k] >= end))) continue;
-      next = k;
-      nextRun = first[k];
-      nextLast = last[k];
-      end = ends[k];
-    }
-    if (nextRun != run) {
-      run = nextRun;
-      sum = Light(0.0);
-      from = 0.0;
-    }
-    Ray ray = cameraRay(samplePosition(line, samples, float(64 * chunk) + 0.5 * float(nextRun + nextLast)));
-    sum += rowShadowedLight(ray, from, end, slice);
-    from = end;
-    for (int k = 0; k < 4; ++k)
-      if (k == next) stored[k] = storedLight(sum, ray);
-    waiting = bvec4(waiting.x && next != 0, waiting.y && next != 1, waiting.z && next != 2, waiting.w && next != 3);
+  ivec4 masks = masksOf(texelFetch(marks, ivec2(slice, chunk), 0));
+  int rank = 2 * (fragment - offset), low = 64 * chunk + extraSample(masks, rank);
+  int high = rank + 1 < extraSamples(masks) ? 64 * chunk + extraSample(masks, rank + 1) : low;
+  bool none = fragment >= int(texelFetch(extraOffsets, ivec2(slice, samplesPerSlice / 64), 0).r);
+  if (none || !(isChanged(slice, low) || isChanged(slice, high))) return ivec2(-1);
+  return high == low + 1 && endOf(slice, high) < endOf(slice, low) ? ivec2(high, low) : ivec2(low, high);
+}
+
+// In it and from one walk to the next few values are held: what can be had again is.
+void main() {
+  int slice = int(gl_FragCoord.x);
+  ivec2 pair = samplesOf(slice, int(gl_FragCoord.y)); // the second with all bits turned over once it is another sample's turn
+  vec3 stored = vec3(0.0), before = vec3(0.0);
+  bool walking = pair.x >= 0;
+  while (walking) {
+    bool again = pair.y < 0;
+    int own = pair.x, other = again ? ~pair.y : pair.y;
+    bool share = abs(own - other) == 1;
+    vec2 position = samplePosition(sliceEnds(slice), sliceSamples(slice), share ? 0.5 * float(own + other) : float(own));
+    Light light = rowShadowedLight(position, share && again ? endOf(slice, other) : 0.0, endOf(slice, own), slice);
+    before = stored;
+    stored = storedLight(light, lampSine(cameraRay(position))) + (share && again ? stored : vec3(0.0));
+    walking = !again && own != other;
+    if (walking) pair = ivec2(other, ~own);
   }
-  outFirst = vec4(stored[0].r, stored[1].r, stored[2].r, stored[3].r);
-#if !MONOCHROME || GLASS
-  outGreen = vec4(stored[0].g, stored[1].g, stored[2].g, stored[3].g);
-  outBlue = vec4(stored[0].b, stored[1].b, stored[2].b, stored[3].b);
+  if (pair.x < 0) discard;
+  bool lowIsLast = pair.y >= 0 || pair.x < ~pair.y;
+  vec3 low = lowIsLast ? stored : before, high = lowIsLast ? before : stored;
+#if MONOCHROME && !GLASS
+  outFirst = vec4(low.r, high.r, 0.0, 0.0);
+#else
+  outFirst = vec4(low, 0.0);
+  outSecond = vec4(high, 0.0);
 #endif
 }

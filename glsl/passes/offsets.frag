@@ -1,4 +1,4 @@
-// Offsets: where each chunk's extra march samples begin among their slice's, packed four to a texel.
+// Offsets: where each chunk's extra march samples begin among their slice's, packed two to a texel.
 // In parts of the chunks that are drawn. Reads refined marks: slices x samples / 64. Writes extraOffsets: slices x (samples / 64 + 1), R32F, in texels; the last
 // row holds the slice's sum.
 #include "shared.glsl"
@@ -18,6 +18,6 @@ void main() {
     last = int(range.y) / 4;
   }
   for (int i = first; i < min(chunk, last); ++i)
-    sum += (extraSamples(masksOf(texelFetch(marks, ivec2(slice, i), 0))) + 3) / 4;
+    sum += (extraSamples(masksOf(texelFetch(marks, ivec2(slice, i), 0))) + 1) / 2;
   outOffset = vec4(float(sum), 0.0, 0.0, 0.0);
 }

@@ -26,7 +26,7 @@ void main() {
 #ifdef LOW_RANK
   startLowRank(cameraRay(gl_FragCoord.xy), slice);
 #endif
-  vec3 light = vec3(rowShadowedLight(cameraRay(gl_FragCoord.xy), 0.0, end, slice));
+  vec3 light = vec3(rowShadowedLight(gl_FragCoord.xy, 0.0, end, slice));
 #ifdef COUNT_VISITS
   outInscatter = vec4(visits);
 #else

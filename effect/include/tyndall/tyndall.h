@@ -342,7 +342,7 @@ struct Statistics {
   int compiledPrograms = 0;      ///< programs built so far
   std::uint64_t fixupPixels = 0; ///< pixels that were marched by themselves after epipolar sampling
   /// Camera rays integrated, over all lights, and over parts of a light's shadow views where those are too large to be
-  /// marched at once; march samples that are integrated together, up to four of a slice, count as one.
+  /// marched at once; march samples that are integrated together, up to two of a slice, count as one.
   std::uint64_t marchedSamples = 0;
   /// Share of the slices' segments, over all lights, that were marched: 1 for a frame drawn in full, 0 for one that
   /// only composites what is kept.

@@ -203,7 +203,7 @@ std::vector<PassRow> makeRows() {
       Row(Pass::MarchExtra, "march extra", "passes/marchExtra.frag", S::StripsOfSlices)
           .reads({R::SliceTable, R::SampleEnds, {R::RefinedMarks, "marks"}, R::ExtraOffsets})
           .walksRows()
-          .writes({R::Extra, R::ExtraGreen, R::ExtraBlue})
+          .writes({R::Extra, R::ExtraSecond})
           .joins(kSumOfDraws),
       Row(Pass::Interpolate, "interpolate", "passes/interpolate.frag", S::Slices)
           .reads({R::SliceTable,
@@ -212,8 +212,7 @@ std::vector<PassRow> makeRows() {
                   R::ExtraOffsets,
                   R::Marched,
                   R::Extra,
-                  R::ExtraGreen,
-                  R::ExtraBlue})
+                  R::ExtraSecond})
           .writes({R::EpipolarInscatter})
           .options({{"CHANGED", {kUndefined, 1}}}),
       Row(Pass::Unwarp, "unwarp", "passes/unwarp.frag", S::Image)

@@ -49,7 +49,7 @@ Size chunks(E e) { return {e.slices, e.samples / kChunk}; }
 Size chunksAndSum(E e) { return {e.slices, e.samples / kChunk + 1}; }
 Size segments(E e) { return {e.slices, e.samples / kSegmentSamples}; }
 Size segmentEnds(E e) { return {e.slices, e.samples / kSegmentSamples + 1}; }
-Size fours(E e) { return {e.slices, e.samples / 4}; }
+Size twos(E e) { return {e.slices, e.samples / 2}; }
 Size slices(E e) { return {e.slices, 1}; }
 Size one(E) { return {1, 1}; }
 Size imageRows(E e) { return {e.height, 1}; }
@@ -103,10 +103,9 @@ constexpr ResourceRow kRows[] = {
     {"mean light", kR32, kR32, always, always, one, one, Lifetime::Frame, "the picture's mean inscatter"},
     {"extra offsets", kR32, kR32, always, always, chunksAndSum, chunksAndSum, Lifetime::Frame,
      "where a chunk's extra samples are packed"},
-    {"extra", kRgba16, kRgba32, coloured, always, fours, fours, Lifetime::Frame,
-     "as marched, of the march samples between, packed; red or grey"},
-    {"extra green", kRgba16, kRgba16, always, coloured, fours, fours, Lifetime::Frame, "the same in green"},
-    {"extra blue", kRgba16, kRgba16, always, coloured, fours, fours, Lifetime::Frame, "the same in blue"},
+    {"extra", kRgba16, kRg32, coloured, always, twos, twos, Lifetime::Frame,
+     "as marched, of the march samples between, packed: the first of two, or both if they are grey"},
+    {"extra second", kRgba16, kRgba16, always, coloured, twos, twos, Lifetime::Frame, "the second of two"},
     {"epipolar inscatter", kRgba16, kRg32, coloured, always, samples, samples, Lifetime::Light,
      "the same of all samples, with their distance"},
     {"row depths", kRgba32, kUnorm4, floatRows, always, groups, drawnGroups, Lifetime::ComparedRows,

@@ -3,7 +3,7 @@
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
-#include "lib/airlight.glsl"
+#include "common/airlight.glsl"
 #include "common/steps.glsl"
 #include "common/texelSteps.glsl"
 #include "common/epipolar.glsl"

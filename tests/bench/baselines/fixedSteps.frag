@@ -4,7 +4,7 @@
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
 #include "lib/depth.glsl"
-#include "lib/airlight.glsl"
+#include "common/airlight.glsl"
 #include "common/steps.glsl"
 #include "common/final.glsl"
 

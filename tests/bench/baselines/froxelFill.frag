@@ -5,7 +5,7 @@
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
-#include "lib/airlight.glsl"
+#include "common/airlight.glsl"
 #include "common/steps.glsl"
 #include "common/froxel.glsl"
 
@@ -34,11 +34,11 @@ void main() {
     begin = end;
     Light part = Light(0.0);
 #if SHADOW_VIEWS == 0
-    if (s1 > s0) part = Light(airlight(light, s0, s1));
+    if (s1 > s0) part = airlight(light, s0, s1);
 #elif SHADOW_VIEWS == 1
     float s = 0.5 * (s0 + s1);
     if (s1 > s0 && s >= from && s <= to) part = shadowedSteps(light, line, ray, s0, s1, 1, 0.5);
-    else if (s1 > s0 && isLitOutside != 0) part = Light(airlight(light, s0, s1));
+    else if (s1 > s0 && isLitOutside != 0) part = airlight(light, s0, s1);
 #else
     if (s1 > s0) part = shadowedSteps(light, line, ray, s0, s1, 1, 0.5);
 #endif

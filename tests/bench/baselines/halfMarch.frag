@@ -5,7 +5,7 @@
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
 #include "lib/depth.glsl"
-#include "lib/airlight.glsl"
+#include "common/airlight.glsl"
 #include "common/steps.glsl"
 
 uniform int steps;

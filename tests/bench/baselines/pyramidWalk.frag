@@ -6,7 +6,7 @@
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
 #include "lib/depth.glsl"
-#include "lib/airlight.glsl"
+#include "common/airlight.glsl"
 #include "common/steps.glsl"
 #include "common/final.glsl"
 
@@ -72,13 +72,13 @@ Light walkedLight(Airlight light, ViewLine line, float from, float to) {
     float crossing = (bounds.x - line.origin.z) / line.slope.z;
     bool litThere = z0 <= bounds.x, crosses = crossing > walk.s && crossing < end && litThere == lit;
     float change = crosses ? crossing : walk.s;
-    if (lit) sum += Light(airlight(light, begin, change));
+    if (lit) sum += airlight(light, begin, change);
     lit = !lit;
     begin = change;
     walk.s = change;
     if ((lit ? max(crosses ? bounds.x : z0, z1) <= bounds.x : z1 > bounds.x)) leaveNode(line, walk, end, axis);
   }
-  if (lit) sum += Light(airlight(light, begin, to));
+  if (lit) sum += airlight(light, begin, to);
   return sum;
 }
 
@@ -91,8 +91,8 @@ void main() {
   clipToSides(line, from, to);
   Light sum = Light(0.0);
   if (!(to > from)) from = to = s1;
-  if (isLitOutside != 0 && from > 0.0) sum += Light(airlight(light, 0.0, from));
-  if (isLitOutside != 0 && to < s1) sum += Light(airlight(light, to, s1));
+  if (isLitOutside != 0 && from > 0.0) sum += airlight(light, 0.0, from);
+  if (isLitOutside != 0 && to < s1) sum += airlight(light, to, s1);
   if (to > from) sum += walkedLight(light, line, from, to);
   writeFinal(lightColour * vec3(sum), end);
 }

@@ -5,7 +5,7 @@
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
 #include "lib/depth.glsl"
-#include "lib/airlight.glsl"
+#include "common/airlight.glsl"
 
 layout(location = 0) out vec4 outInscatter;
 #if FACES

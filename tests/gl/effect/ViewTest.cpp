@@ -157,13 +157,13 @@ TEST_CASE("the views of samples and march samples count every one of them") {
     CHECK(samples.x > rig.scene.frame.width);
     CHECK(samples.y == samples.x / 4);
     CHECK(samples.z == samples.x / 16);
-    // One in sixteen of each slice, rounded up, is regular; the statistics count the packs of up to four others.
+    // One in sixteen of each slice, rounded up, is regular; the statistics count the packs of up to two others.
     CHECK(march.z >= samples.x / 16);
     CHECK(march.z <= samples.x / 16 + rig.scene.frame.settings.slices);
     const double packs = static_cast<double>(statistics.marchedSamples - statistics.fixupPixels) - march.z;
     CHECK(packs > 0);
     CHECK(march.x + march.y >= packs);
-    CHECK(march.x + march.y <= 4 * packs);
+    CHECK(march.x + march.y <= 2 * packs);
   }
 }
 

@@ -124,7 +124,7 @@ Light steppedLight(Ray ray, float end, int steps, float jitter) {
   litRange(light, s0, s1);
   if (!(s1 > s0)) return Light(0.0);
 #if SHADOW_VIEWS == 0
-  return Light(airlight(light, s0, s1));
+  return airlight(light, s0, s1);
 #else
   ViewLine line = viewLine(0, ray);
   Light sum = Light(0.0);
@@ -132,9 +132,9 @@ Light steppedLight(Ray ray, float end, int steps, float jitter) {
   float from = s0, to = s1;
   clipToSides(line, from, to);
   if (isLitOutside != 0) {
-    if (!(to > from)) return Light(airlight(light, s0, s1));
-    if (from > s0) sum += Light(airlight(light, s0, from));
-    if (to < s1) sum += Light(airlight(light, to, s1));
+    if (!(to > from)) return airlight(light, s0, s1);
+    if (from > s0) sum += airlight(light, s0, from);
+    if (to < s1) sum += airlight(light, to, s1);
   }
   s0 = from;
   s1 = to;
