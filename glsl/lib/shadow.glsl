@@ -328,6 +328,9 @@ void addTexels(Airlight light, ViewSegment segment, inout Light sum) {
       }
     }
     if (!found) break;
+#if !FILTER_BILINEAR && !GLASS
+    weight = 1.0; // lit or dark
+#endif
 #if FADES || CURVES
     addSpan(light, segment, begin, end, weight, Visibility(0.0), sum);
 #else
