@@ -65,7 +65,7 @@ void planToInterpolate(LightPlanner& light) {
   light.draw(Pass::Refine);
   light.draw(Pass::Offsets);
   forEachDraw(Pass::MarchExtra, {Count::Marched});
-  light.draw(Pass::Interpolate, {light.drawnSlices ? gl::Definitions{{"CHANGED", 1}} : gl::Definitions{}});
+  light.draw(Pass::Interpolate);
 }
 
 } // namespace tyndall::passes::epipolar

@@ -229,8 +229,7 @@ std::vector<PassRow> makeRows() {
                   R::Extra,
                   R::ExtraGreen,
                   R::ExtraBlue})
-          .writes({R::EpipolarInscatter})
-          .options({{"CHANGED", {kUndefined, 1}}}),
+          .writes({R::EpipolarInscatter}),
       Row(Pass::Unwarp, "unwarp", "passes/unwarp.frag", S::Image)
           .reads({R::SceneDepth, R::SliceTable, R::EpipolarInscatter, R::MeanLight})
           .into(Into::Destination)
