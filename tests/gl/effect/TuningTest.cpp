@@ -93,6 +93,8 @@ struct Sequence {
   float leastWeight = 0.01F;
 };
 
+Light lampInView() { return tests::reuse::lamp(LightKind::Point, {-0.6, 2.6, -6}, {0, -1, 0}); }
+
 tests::ShaftRig rigOf(const Sequence& sequence, Changes changes) {
   tests::ShaftRig rig(96, 64);
   for (Light light : sequence.lights) {
@@ -115,7 +117,8 @@ TEST_CASE("tuning: sequences are the same bit for bit, whatever the masks", "[sw
   for (const Sequence& sequence :
        {Sequence{{sun()}}, Sequence{{sun()}, true}, Sequence{{sun()}, true, bilinear},
         Sequence{{sun()}, false, bilinear, 3}, Sequence{{spot()}}, Sequence{{spot()}, true, bilinear},
-        Sequence{{point()}}, Sequence{{sun(), spot(), point()}}, Sequence{{sun(), spot()}, false, nearest, 1, 0.7F}})
+        Sequence{{point()}}, Sequence{{lampInView()}}, Sequence{{sun(), spot(), point()}},
+        Sequence{{sun(), spot()}, false, nearest, 1, 0.7F}})
     for (const Changes changes : {Changes::Detect, Changes::Objects}) {
       CAPTURE(sequence.lights.size(), static_cast<int>(sequence.lights[0].kind), sequence.glass,
               static_cast<int>(sequence.filter), sequence.cascades, static_cast<int>(changes));
