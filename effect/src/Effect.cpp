@@ -51,7 +51,7 @@ Status Effect::State::planFrame(const Frame& frame, const FrameTextures& texture
                                 PlannedFrame& planned) {
   framebuffers.beginFrame();
   Allocator allocator(framebuffers, true);
-  const PlanInputs inputs{frame, textures, limits, targets, eye, recorder.counts()};
+  const PlanInputs inputs{frame, textures, limits, tuning, targets, eye, recorder.counts()};
   FramePlanner(inputs, allocator, planned).plan();
   planned.empty = allocator.texture(targets, Resource::Empty, {});
   if (!allocator.status()) return allocator.status();
@@ -127,7 +127,7 @@ std::vector<FramePlan> Effect::State::planAhead(const Frame& frame, const FrameT
   const auto plan = [&](const Frame& from, KeptEye* eye, auto&& how, std::optional<bool> sumsApart = {}) {
     Allocator allocator(framebuffers, false);
     PlannedFrame planned;
-    const PlanInputs inputs{from, textures, limits, targets, eye, false, true, sumsApart};
+    const PlanInputs inputs{from, textures, limits, tuning, targets, eye, false, true, sumsApart};
     FramePlanner planner(inputs, allocator, planned);
     how(planner);
     plans.push_back(std::move(planned.plan));
@@ -154,7 +154,7 @@ std::vector<FramePlan> Effect::State::planAhead(const Frame& frame, const FrameT
 Status Effect::State::compileAll() {
   const gl::StateGuard guard(gl, stateMode);
   constexpr std::size_t kAtOnce = 64; // enough for a driver's threads; what does not build is known soon
-  const std::vector<gl::Variant> all = allVariants();
+  const std::vector<gl::Variant> all = allVariants(tuning.compositing == Compositing::DualSource);
   for (std::size_t first = 0; first < all.size(); first += kAtOnce) {
     const std::size_t end = std::min(first + kAtOnce, all.size());
     for (std::size_t i = first; i < end; ++i)

@@ -1,6 +1,7 @@
 // Exact: every shadow texel along the pixel's own ray, in every view, for one light; the reference of all techniques.
-// Reads the scene depth (image size), the light's shadow map and glass map. Writes inscatter (RGB, added up over the
-// lights) and transmittance, as the two sources of dual-source blending: the second counts only where it is blended by.
+// Reads the scene depth (image size), the light's shadow map and glass map. Writes inscatter (RGB, added up over the lights); what passes of
+// the picture behind is a draw of its own (transmittance.frag): a second output for dual-source blending would halve what GPUs of
+// Intel's march at once.
 // Physics: DESIGN 1; closed form of Yusov 2013.
 #define FADE_STEPS 16
 #include "shared.glsl"
@@ -13,8 +14,7 @@
 void addOwned(Airlight light, ViewSegment segment, int slice, inout Light sum) { addTexels(light, segment, sum); }
 #endif
 
-layout(location = 0, index = 0) out vec4 outInscatter;
-layout(location = 0, index = 1) out vec4 outTransmittance;
+layout(location = 0) out vec4 outInscatter;
 
 // Of a pixel's samples: where the first of those ends that end behind `from`, and how many do.
 vec2 nextEnd(float from) {
@@ -38,8 +38,4 @@ void main() {
     from = next.x;
   }
   outInscatter = vec4(min(lightColour * vec3(sum), vec3(lightCeiling)), 0.0);
-  vec3 transmittance = vec3(0.0);
-  for (int k = 0; k < depthSampleCount; ++k)
-    transmittance += transmittanceTo(sampleEndAt(gl_FragCoord.xy, k)) / float(depthSampleCount);
-  outTransmittance = vec4(transmittance, 1.0);
 }

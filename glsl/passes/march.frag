@@ -22,8 +22,7 @@ uniform sampler2D sampleEnds;
 uniform sampler2D changedSegments;
 flat in int isImage;
 flat in int isPart;
-layout(location = 0, index = 0) out vec4 outInscatter;
-layout(location = 0, index = 1) out vec4 outTransmittance;
+layout(location = 0) out vec4 outInscatter;
 
 // What is marched: a window position, the slice and where its ray ends; not if `marched` is false.
 struct Target {
@@ -63,5 +62,4 @@ void main() {
   Light light = rowShadowedLight(target.position, 0.0, end, target.slice);
   Spectrum factor = factorOf(cameraRay(target.position));
   outInscatter = vec4(isImage == 0 ? storedLight(light, vec3(factor).x) : min(lightColour * vec3(factor) * vec3(light), vec3(lightCeiling)), 0.0);
-  outTransmittance = vec4(transmittanceTo(end), 1.0);
 }

@@ -17,8 +17,7 @@
 #include "lib/tree.glsl"
 #include "lib/row.glsl"
 
-layout(location = 0, index = 0) out vec4 outInscatter;
-layout(location = 0, index = 1) out vec4 outTransmittance;
+layout(location = 0) out vec4 outInscatter;
 
 void main() {
   float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy))), 0.0);
@@ -32,5 +31,4 @@ void main() {
 #else
   outInscatter = vec4(min(lightColour * light, vec3(lightCeiling)), 0.0);
 #endif
-  outTransmittance = vec4(transmittanceTo(end), 1.0);
 }

@@ -1,5 +1,6 @@
 #include "Options.h"
 #include "OptionRules.h"
+#include "TuningOptions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -285,6 +286,7 @@ Options parseOptions(int argc, const char* const* argv) {
   app.add_option("SCENE", options.scene, "a glTF 2.0 file, .glb or .gltf")->required();
   addView(app, options, given.lookAt);
   addQuality(app, options);
+  addTuning(app, options.tuning);
   addShadows(app, options);
   addFrames(app, options, given);
   addRest(app, options, given);

@@ -103,6 +103,7 @@ FrameRenderer::FrameRenderer(const Options& options)
   tyndall::Config config;
   config.loader = context_->loader();
   config.timing = timingFor(context_->driver());
+  config.tuning = options.tuning;
   if (options.programs) config.programs = host::programFiles(*options.programs);
   tyndall::CreateResult created = tyndall::Effect::create(config);
   if (!created.status) throw host::Error("effect: " + created.status.message);

@@ -84,13 +84,13 @@ std::string wrongRows(const tests::GlState& before, const tests::GlState& after)
   return names;
 }
 
-std::unique_ptr<Effect> newEffect(StateMode state) {
-  return tests::newEffect({tests::testContext().loader(), PassTiming::Off, {}, state});
+std::unique_ptr<Effect> newEffect(StateMode state, const Tuning& tuning = {}) {
+  return tests::newEffect({tests::testContext().loader(), PassTiming::Off, {}, state, tuning});
 }
 
 // A view's frames, each drawn into a poisoned state.
-std::vector<tests::TargetContents> drawPoisoned(Stage& stage, StateMode mode) {
-  const std::unique_ptr<Effect> effect = newEffect(mode);
+std::vector<tests::TargetContents> drawPoisoned(Stage& stage, StateMode mode, const Tuning& tuning) {
+  const std::unique_ptr<Effect> effect = newEffect(mode, tuning);
   std::vector<tests::TargetContents> pictures;
   stage.rewind();
   for (int i = 0; i < 3; ++i) {
@@ -129,7 +129,10 @@ constexpr const char* kCases[] = {"epipolar",
                                   "view 9",
                                   "detect, first frame",
                                   "objects, first frame",
-                                  "objects, redrawn, first frame"};
+                                  "objects, redrawn, first frame",
+                                  "detect, two lights, by the stencil, fix-up by tiles",
+                                  "epipolar, spread, fix-up by tiles",
+                                  "detect, colour copied"};
 
 } // namespace
 
@@ -137,9 +140,10 @@ TEST_CASE("a state that is left draws what one that is given back does, and is a
   tests::testContext();
   for (const char* name : kCases) {
     CAPTURE(name);
-    Stage stage(tests::frameCase(name));
-    const std::vector<tests::TargetContents> expected = drawPoisoned(stage, StateMode::Restore);
-    const std::vector<tests::TargetContents> left = drawPoisoned(stage, StateMode::Leave);
+    const tests::FrameCase& item = tests::frameCase(name);
+    Stage stage(item);
+    const std::vector<tests::TargetContents> expected = drawPoisoned(stage, StateMode::Restore, item.tuning);
+    const std::vector<tests::TargetContents> left = drawPoisoned(stage, StateMode::Leave, item.tuning);
     for (std::size_t i = 0; i < left.size(); ++i) {
       CAPTURE(i);
       CHECK(tests::bitEqual(left[i][0], expected[i][0]));
