@@ -5,7 +5,7 @@
 uniform sampler2D lowRankRays;   // grid x terms: the ray's factors
 uniform sampler2D lowRankLights; // sets x (2 terms grid): prefix sums, then the light's factors
 
-const int kLowRankGrid = 64, kMostTerms = 8;
+const int kLowRankGrid = 64;
 
 // Of the camera ray that is integrated.
 struct LowRankRay {
@@ -13,7 +13,8 @@ struct LowRankRay {
   int set;
   float scale;     // directional: x = s scale; lamp: half a turn less beta
   Spectrum factor;
-  Spectrum terms[kMostTerms];
+  int cell;        // of the grid of camera rays, and the place in it
+  float place;
 } lowRank;
 
 void startLowRank(Ray ray, int slice) {
@@ -30,13 +31,14 @@ void startLowRank(Ray ray, int slice) {
   lowRank.factor = Spectrum(inversesqrt(light.height2));
 #endif
   lowRank.set = lowRankPerSlice != 0 ? slice : 0;
-  int low = clamp(int(place), 0, kLowRankGrid - 2);
-  float f = clamp(place - float(low), 0.0, 1.0);
-  for (int i = 0; i < kMostTerms; ++i) {
-    lowRank.terms[i] = Spectrum(0.0);
-    if (i < lowRankTerms)
-      lowRank.terms[i] = mix(SPECTRUM(texelFetch(lowRankRays, ivec2(low, i), 0)), SPECTRUM(texelFetch(lowRankRays, ivec2(low + 1, i), 0)), f);
-  }
+  lowRank.cell = clamp(int(place), 0, kLowRankGrid - 2);
+  lowRank.place = clamp(place - float(lowRank.cell), 0.0, 1.0);
+}
+
+// The ray's factor of a term: fetched where it is needed, for eight of them would fill the registers.
+Spectrum rayTerm(int term) {
+  vec4 low = texelFetch(lowRankRays, ivec2(lowRank.cell, term), 0), high = texelFetch(lowRankRays, ivec2(lowRank.cell + 1, term), 0);
+  return SPECTRUM(mix(low, high, lowRank.place));
 }
 
 #if LIGHT_KIND == 0
@@ -80,8 +82,7 @@ void addLowRank(Airlight light, float s0, float s1, Visibility visibility, inout
   if (!lowRank.valid || !(s1 > s0)) return;
   vec3 from = lightPlace(light, s0), to = lightPlace(light, s1);
   Spectrum own = Spectrum(0.0);
-  for (int i = 0; i < kMostTerms; ++i)
-    if (i < lowRankTerms) own += lowRank.terms[i] * (prefixSum(i, to) - prefixSum(i, from));
+  for (int i = 0; i < lowRankTerms; ++i) own += rayTerm(i) * (prefixSum(i, to) - prefixSum(i, from));
   sum += visibility * Light(lowRank.factor * own);
 }
 

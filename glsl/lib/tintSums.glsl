@@ -16,8 +16,9 @@ Light tintedLight(int row, int from, int to) {
   int fours = (lowRankTerms + 3) / 4, rows = textureSize(tintRed, 0).y / fours;
   vec3 sum = vec3(0.0);
   for (int i = 0; i < fours; ++i) {
-    int first = 4 * i, y = i * rows + row;
-    vec3 a = vec3(lowRank.terms[first]), b = vec3(lowRank.terms[first + 1]), c = vec3(lowRank.terms[first + 2]), d = vec3(lowRank.terms[first + 3]);
+    int first = 4 * i, y = i * rows + row; // a texture's terms beyond the last are 0
+    vec3 a = vec3(rayTerm(first)), b = vec3(rayTerm(min(first + 1, lowRankTerms - 1))), c = vec3(rayTerm(min(first + 2, lowRankTerms - 1)));
+    vec3 d = vec3(rayTerm(min(first + 3, lowRankTerms - 1)));
     vec4 red = sumsBetween(tintRed, from >> 2, to >> 2, y), green = sumsBetween(tintGreen, from >> 2, to >> 2, y);
     vec4 blue = sumsBetween(tintBlue, from >> 2, to >> 2, y);
     sum += vec3(dot(red, vec4(a.r, b.r, c.r, d.r)), dot(green, vec4(a.g, b.g, c.g, d.g)), dot(blue, vec4(a.b, b.b, c.b, d.b)));

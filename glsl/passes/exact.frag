@@ -1,7 +1,6 @@
 // Exact: every shadow texel along the pixel's own ray, in every view, for one light; the reference of all techniques.
-// Reads the scene depth (image size), the light's shadow map and glass map. Writes inscatter (RGB, added up over the lights); what passes of
-// the picture behind is a draw of its own (transmittance.frag): a second output for dual-source blending would halve what GPUs of
-// Intel's march at once.
+// Reads the scene depth (image size), the light's shadow map and glass map. Writes inscatter (RGB, added up over the
+// lights) and transmittance (lib/outputs.glsl).
 // Physics: DESIGN 1; closed form of Yusov 2013.
 #define FADE_STEPS 16
 #include "shared.glsl"
@@ -14,7 +13,7 @@
 void addOwned(Airlight light, ViewSegment segment, int slice, inout Light sum) { addTexels(light, segment, sum); }
 #endif
 
-layout(location = 0) out vec4 outInscatter;
+#include "lib/outputs.glsl"
 
 // Of a pixel's samples: where the first of those ends that end behind `from`, and how many do.
 vec2 nextEnd(float from) {
@@ -24,6 +23,12 @@ vec2 nextEnd(float from) {
     if (end > from) next = vec2(min(next.x, end), next.y + 1.0);
   }
   return next;
+}
+
+vec3 meanTransmittance() {
+  vec3 sum = vec3(0.0);
+  for (int k = 0; k < depthSampleCount; ++k) sum += transmittanceTo(sampleEndAt(gl_FragCoord.xy, k)) / float(depthSampleCount);
+  return sum;
 }
 
 // As a mean over the pixel's samples: the stretch up to the next end belongs to all samples that end there or behind. So no
@@ -38,4 +43,5 @@ void main() {
     from = next.x;
   }
   outInscatter = vec4(min(lightColour * vec3(sum), vec3(lightCeiling)), 0.0);
+  outTransmittance = vec4(meanTransmittance(), 1.0);
 }

@@ -12,11 +12,12 @@
 #include "lib/trueLine.glsl"
 #include "lib/row.glsl"
 
-layout(location = 0) out vec4 outInscatter;
+#include "lib/outputs.glsl"
 
 void main() {
   float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy))), 0.0);
   int slice = neighbourSlices(sliceCoordinate(gl_FragCoord.xy)).x;
   vec3 light = vec3(rowShadowedLight(gl_FragCoord.xy, 0.0, end, slice));
   outInscatter = vec4(min(lightColour * light, vec3(lightCeiling)), 0.0);
+  outTransmittance = vec4(transmittanceTo(end), 1.0);
 }

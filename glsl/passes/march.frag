@@ -22,7 +22,7 @@ uniform sampler2D sampleEnds;
 uniform sampler2D changedSegments;
 flat in int isImage;
 flat in int isPart;
-layout(location = 0) out vec4 outInscatter;
+#include "lib/outputs.glsl"
 
 // What is marched: a window position, the slice and where its ray ends; not if `marched` is false.
 struct Target {
@@ -62,4 +62,5 @@ void main() {
   Light light = rowShadowedLight(target.position, 0.0, end, target.slice);
   Spectrum factor = factorOf(cameraRay(target.position));
   outInscatter = vec4(isImage == 0 ? storedLight(light, vec3(factor).x) : min(lightColour * vec3(factor) * vec3(light), vec3(lightCeiling)), 0.0);
+  outTransmittance = vec4(transmittanceTo(end), 1.0);
 }

@@ -17,7 +17,7 @@
 #include "lib/tree.glsl"
 #include "lib/row.glsl"
 
-layout(location = 0) out vec4 outInscatter;
+#include "lib/outputs.glsl"
 
 void main() {
   float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy))), 0.0);
@@ -31,4 +31,5 @@ void main() {
 #else
   outInscatter = vec4(min(lightColour * light, vec3(lightCeiling)), 0.0);
 #endif
+  outTransmittance = vec4(transmittanceTo(end), 1.0);
 }

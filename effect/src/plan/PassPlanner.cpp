@@ -63,7 +63,7 @@ void PassPlanner::draw(Pass pass, const std::string& title, const DrawOptions& o
 }
 
 void PassPlanner::drawLight(Pass pass, const std::string& title, DrawOptions options) {
-  if (firstLight && drawIndex == 0 && (destination.transmittance != 0 || destination.direct())) {
+  if (firstLight && drawIndex == 0 && destination.transmittance != 0) {
     draw(Pass::Transmittance, rowOf(Pass::Transmittance).name, {{}, options.stencil});
     options.adds = true;
   }

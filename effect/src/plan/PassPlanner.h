@@ -60,7 +60,7 @@ public:
 
   void draw(Pass pass, const DrawOptions& options = {});
   void draw(Pass pass, const std::string& title, const DrawOptions& options);
-  /// A light of its own, into one target; what passes of the picture behind comes before, as a draw of its own.
+  /// A light of its own, into one target: where the destination's transmittance has another, that comes before.
   void drawLight(Pass pass, const std::string& title, DrawOptions options);
   void drawLight(Pass pass, const DrawOptions& options = {}) { drawLight(pass, titleOf(rowOf(pass).name), options); }
   void clear(Resource resource, float red); ///< of the whole image
