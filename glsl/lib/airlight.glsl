@@ -249,11 +249,13 @@ void addPiece(Airlight light, float s0, float s1, Visibility visibility, inout L
     float middle = exp(halfLength);
     float Pm = P * middle;
     bool isShort = len < shortPanel && rate * len < 0.3;
+    Spectrum panel = Spectrum(0.0); // a sum of its own, for what a sum of very many nodes would round
     for (int k = 0; k < (isShort ? 2 : 6); ++k) { // nodes in pairs around the middle
       vec2 node = isShort ? vec2(kNode2, 1.0) : k < 2 ? kNode6.xy : k < 4 ? kNode6.zw : kNode6Last;
       float step = exp((k & 1) == 0 ? -halfLength * node.x : halfLength * node.x);
-      sum += (halfLength * node.y) * visibility * Light(pointIntegrand(light, Pm * step));
+      panel += node.y * pointIntegrand(light, Pm * step);
     }
+    sum += (halfLength * visibility) * Light(panel);
     P = Pm * middle;
     remaining -= len;
   }
