@@ -64,6 +64,7 @@ void Effect::State::draw(const PlannedFrame& planned, gl::StateGuard& guard) {
   const UnitsUsed units = unitsOf(planned.plan);
   guard.saveUnits(units.count, units.arrays, units.multisampled);
   if (units.stencil) guard.saveStencil();
+  if (units.scissor) guard.saveScissorBox();
   recorder.countMarched(planned.plan.marched);
   drawPlan(planned.plan, gl, {vertexArray.name(), nearestSampler.name(), planned.empty, blocks}, recorder);
   visits = planned.visits;

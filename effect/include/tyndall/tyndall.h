@@ -332,6 +332,8 @@ struct PassStatistics {
   std::string name;
   std::string skipped;     ///< why it did not run; empty if it ran
   double milliseconds = 0; ///< 0 if skipped or not timed
+  int bands = 0;           ///< draws that it took, more than one by Tuning::bandMilliseconds; 0 if skipped
+  double longestBand = 0;  ///< of them, in milliseconds; as those, and by PassTiming::Finish with a glFinish for each
 };
 
 struct Statistics {

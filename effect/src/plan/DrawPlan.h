@@ -16,10 +16,10 @@ struct DrawObjects {
   const BlockBuffers& blocks;  ///< the plan's
 };
 
-/// Texture units and targets that a plan's programs read.
+/// Texture units and targets that a plan's programs read, and what else of GL's state its draws change.
 struct UnitsUsed {
   int count = 0;
-  bool arrays = false, multisampled = false, stencil = false;
+  bool arrays = false, multisampled = false, stencil = false, scissor = false;
 };
 
 /// Starts to build the plan's programs.

@@ -4,6 +4,7 @@
 #include "PassRecorder.h"
 #include "SharedBlocks.h"
 #include "gl/Variant.h"
+#include "plan/Resources.h"
 
 #include <algorithm>
 #include <array>
@@ -36,6 +37,21 @@ struct Viewport {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
+/// The rectangles that a draw is drawn in, one after the other: no longer than a limit each.
+struct Bands {
+  Size size;               ///< of each; of what is left at the right and at the top less. 0, 0: the draw is whole
+  double milliseconds = 0; ///< that one may take
+};
+
+/// From the lowest row on, each from left to right.
+template <typename Function>
+void forEachBand(const Viewport& all, const Size& size, Function&& function) {
+  for (int y = 0; y < all.height; y += size.height)
+    for (int x = 0; x < all.width; x += size.width)
+      function(
+          Viewport{all.x + x, all.y + y, std::min(size.width, all.width - x), std::min(size.height, all.height - y)});
+}
+
 /// Texels of the CPU's for a texture of our own.
 struct Upload {
   gl::Uint texture = 0;
@@ -62,6 +78,7 @@ struct Draw {
   std::vector<NamedTexture> reads;
   gl::Uint framebuffer = 0;
   Viewport viewport;
+  Bands bands;
   Blend blend = Blend::Replace;
   Stencil stencil = Stencil::Off;
   Counting counting;
@@ -75,6 +92,10 @@ struct Draw {
     gl::Uint texture;
   };
   std::vector<Reading> textures;
+
+  bool isWhole() const { // in one band
+    return bands.size.width == 0 || (bands.size.width >= viewport.width && bands.size.height >= viewport.height);
+  }
 };
 
 /// A pass that is not drawn, and why.
@@ -91,7 +112,8 @@ struct FramePlan {
   std::vector<Step> steps;
   /// Uniform blocks; the first stands for those that a draw does not read, since GL wants all of a program's bound.
   std::vector<std::vector<std::uint8_t>> blocks{std::vector<std::uint8_t>(kLargestBlock)};
-  std::uint64_t marched = 0; ///< rays that need no counting
+  std::uint64_t marched = 0;   ///< rays that need no counting
+  double bandMilliseconds = 0; ///< longest that a draw, or what GL gets at once, may take; 0: no limit
 
   void skip(std::string pass, std::string why) { steps.emplace_back(Skip{std::move(pass), std::move(why)}); }
 

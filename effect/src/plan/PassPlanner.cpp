@@ -57,6 +57,8 @@ void PassPlanner::draw(Pass pass, const std::string& title, const DrawOptions& o
   addReads(row, draw);
   addTarget(row, options, draw);
   if (options.viewport) draw.viewport = *options.viewport;
+  draw.bands = bandsOf({draw.viewport.width, draw.viewport.height}, nanosecondsPerFragment(row, variant, paths),
+                       plan.bandMilliseconds);
   addVertices(row.shape, changes, draw);
   if (options.clearTo)
     plan.steps.emplace_back(Clear{draw.framebuffer, false, {*options.clearTo, 0, 0, *options.clearTo}});

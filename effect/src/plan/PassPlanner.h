@@ -2,6 +2,7 @@
 // to, how large. Textures and framebuffers are made on the way; the first that cannot be is the plan's end.
 #pragma once
 
+#include "plan/Bands.h"
 #include "plan/FramePlan.h"
 #include "plan/Passes.h"
 #include "plan/Targets.h"
@@ -77,6 +78,7 @@ public:
   Board board;                   ///< what passes find, and what they leave
   Extent extent;
   LightVariant variant;
+  RayPaths paths;
   Destination destination;
   std::string name;       ///< of the light, for statistics; else empty
   bool firstLight = true; ///< of the frame: the one that brings the transmittance

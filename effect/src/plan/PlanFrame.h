@@ -22,6 +22,7 @@ struct PlanInputs {
   // To compile ahead of frames like this one:
   bool ahead = false;              ///< with a camera that may look elsewhere
   std::optional<bool> sumsApart{}; ///< lights may, or may not, need a texture of their own to be added up in
+  double bandMilliseconds = 0;     ///< Tuning::bandMilliseconds
 };
 
 struct PlannedFrame {
