@@ -1,12 +1,30 @@
 // The public functions of an effect, and what it makes once.
 #include "EffectState.h"
 #include "LoadFunctions.h"
+#include "gl/OwnErrors.h"
 #include "gl/StateGuard.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace tyndall {
+
+namespace {
+
+std::string rendererOf(const gl::Functions& gl) {
+  const auto* name = gl.GetString(gl::RENDERER);
+  return name ? reinterpret_cast<const char*>(name) : "";
+}
+
+// 0 too from a driver that does not know the question.
+int dualSourceBuffersOf(const gl::Functions& gl) {
+  gl::OwnErrors errors(gl);
+  gl::Int count = 0;
+  gl.GetIntegerv(gl::MAX_DUAL_SOURCE_DRAW_BUFFERS, &count);
+  return errors.take() == gl::NO_ERROR ? count : 0;
+}
+
+} // namespace
 
 Effect::Effect(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Effect::~Effect() = default;
@@ -22,6 +40,7 @@ CreateResult Effect::create(const Config& config) {
     return {nullptr, outside("timing", static_cast<int>(config.timing))};
   if (config.state < StateMode::Restore || config.state > StateMode::Leave)
     return {nullptr, outside("state", static_cast<int>(config.state))};
+  if (Status s = checkTuning(config.tuning); !s) return {nullptr, s};
   auto state = std::make_unique<State>(config);
   if (Status s = loadFunctions(state->gl, config.loader, 33, {}); !s) return {nullptr, s};
   state->createObjects();
@@ -58,7 +77,8 @@ Statistics Effect::statistics() {
           state.recorder.fixupPixels(),
           state.recorder.marched(),
           eye ? eye->counts.lastShare() : 1,
-          state.visitsPerRay()};
+          state.visitsPerRay(),
+          state.tuning};
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -69,6 +89,7 @@ void Effect::State::createObjects() {
   gl.GetIntegerv(gl::MAX_TEXTURE_SIZE, &limits.textureSize);
   gl.GetIntegerv(gl::UNIFORM_BUFFER_OFFSET_ALIGNMENT, &limits.blockAlignment);
   limits.blockAlignment = std::max(limits.blockAlignment, 16);
+  tuning = tuningFor(tuning, rendererOf(gl), dualSourceBuffersOf(gl));
   vertexArray = gl::VertexArray(gl);
   gl.BindVertexArray(vertexArray.name()); // a name becomes an object when it is first bound
   nearestSampler = gl::Sampler(gl);

@@ -5,6 +5,7 @@
 #include "ContextWatch.h"
 #include "ObjectBoxes.h"
 #include "PassRecorder.h"
+#include "Tuning.h"
 #include "gl/ProgramCache.h"
 #include "gl/StateGuard.h"
 #include "plan/BlockBuffers.h"
@@ -16,10 +17,11 @@ namespace tyndall {
 
 struct Effect::State {
   explicit State(const Config& config)
-      : stateMode(config.state), watch(gl), programs(gl, config.programs), framebuffers(gl), targets(gl, framebuffers),
-        recorder(gl, config.timing), eyes(gl, framebuffers), objectBoxes(gl), blocks(gl) {}
+      : stateMode(config.state), tuning(config.tuning), watch(gl), programs(gl, config.programs), framebuffers(gl),
+        targets(gl, framebuffers), recorder(gl, config.timing), eyes(gl, framebuffers), objectBoxes(gl), blocks(gl) {}
 
   StateMode stateMode;
+  Tuning tuning; ///< nothing is left to choose once the objects are made
   gl::Functions gl;
   ContextWatch watch;
   Limits limits;

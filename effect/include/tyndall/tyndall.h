@@ -324,6 +324,31 @@ struct Frame {
 // ---------------------------------------------------------------------------------------------------------------------
 // The effect
 
+/// How a pass is kept to the pixels that it is for.
+enum class Masking {
+  Auto,    ///< as the renderer's row of the table of tunings has it
+  Stencil, ///< those pixels, by a stencil test before they are shaded
+  Tiles,   ///< squares of 16 x 16 pixels that hold one are drawn, the others are not
+};
+
+/// How colour * transmittance + inscatter comes into Frame::colour.
+enum class Compositing {
+  Auto,       ///< as the table of tunings has it
+  DualSource, ///< by dual-source blending; where the context has none, as Copy
+  Copy, ///< from a copy of the colour, blended in a shader: inscatter, transmittance and copy are textures of ours
+};
+
+/// What makes a frame faster or slower, never another: each choice gives the same picture. What is left to the effect
+/// it takes from a table of renderers (src/Tuning.cpp), by what GL says that it draws with: software or a GPU.
+struct Tuning {
+  Masking reuse = Masking::Auto; ///< Frame::reuse: the pixels that have changed
+  Masking fixup = Masking::Auto; ///< Technique::Epipolar: the pixels that no sample serves
+  Compositing compositing = Compositing::Auto;
+  /// Longest that one draw is meant to take on the GPU, in milliseconds, at most 10000: a driver resets a GPU that
+  /// takes too long. 0: no limit; negative: as the table of tunings has it.
+  double bandMilliseconds = -1;
+};
+
 /// How the time of a pass is taken: not at all, by GL timer queries, or by wall clock around glFinish.
 enum class PassTiming { Off, TimerQuery, Finish };
 
@@ -352,6 +377,8 @@ struct Statistics {
   /// With DebugView::NodeVisits what that view shows, as a mean over the image: nodes and groups of texels that a ray
   /// looks at, in all shadow views of the first light. Else 0.
   double visitsPerRay = 0;
+  /// Config::tuning, with what the effect took where that left it the choice, or where the context has no other.
+  Tuning tuning = {};
 };
 
 /// Resolves a GL function by name, as glfwGetProcAddress or eglGetProcAddress do.
@@ -376,6 +403,7 @@ struct Config {
   PassTiming timing = PassTiming::Off;
   ProgramStore programs = {};
   StateMode state = StateMode::Restore;
+  Tuning tuning = {};
 };
 
 /// How far Effect::prepare() is.

@@ -84,6 +84,13 @@ TEST_CASE("create with a state mode that is no enumerator is refused") {
                 "Config::state is 2");
 }
 
+TEST_CASE("create with a tuning that breaks a rule is refused") {
+  const GlLoader loader = tests::testContext().loader();
+  const Tuning tuning{Masking::Auto, static_cast<Masking>(3)};
+  requireStatus(Effect::create({loader, PassTiming::Off, {}, StateMode::Restore, tuning}), StatusCode::InvalidConfig,
+                "Config::tuning.fixup is 3");
+}
+
 TEST_CASE("create without a current context is refused") {
   host::Context& context = tests::testContext();
   const GlLoader loader = context.loader();
