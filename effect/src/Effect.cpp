@@ -51,7 +51,7 @@ Status Effect::State::planFrame(const Frame& frame, const FrameTextures& texture
                                 PlannedFrame& planned) {
   framebuffers.beginFrame();
   Allocator allocator(framebuffers, true);
-  const PlanInputs inputs{frame, textures, limits, targets, eye, recorder.counts()};
+  const PlanInputs inputs{frame, textures, limits, tuning, targets, eye, recorder.counts()};
   FramePlanner(inputs, allocator, planned).plan();
   planned.empty = allocator.texture(targets, Resource::Empty, {});
   if (!allocator.status()) return allocator.status();
@@ -128,7 +128,7 @@ std::vector<FramePlan> Effect::State::planAhead(const Frame& frame, const FrameT
   const auto plan = [&](const Frame& from, KeptEye* eye, auto&& how, std::optional<bool> sumsApart = {}) {
     Allocator allocator(framebuffers, false);
     PlannedFrame planned;
-    const PlanInputs inputs{from, textures, limits, targets, eye, false, true, sumsApart};
+    const PlanInputs inputs{from, textures, limits, tuning, targets, eye, false, true, sumsApart};
     FramePlanner planner(inputs, allocator, planned);
     how(planner);
     plans.push_back(std::move(planned.plan));

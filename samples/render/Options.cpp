@@ -241,6 +241,10 @@ void addRest(CLI::App& app, Options& options, Given& given) {
              app.add_option("--context", options.context, "GL's (default osmesa; egl where it is not installed)"));
   app.add_flag("--no-program-cache", given.noProgramCache,
                "compile every shader: linked programs are neither read from the user's cache folder nor kept there");
+  app.add_option("--band-ms", options.bandMilliseconds,
+                 "draw in bands what may take a slow GPU longer, at once, than so many milliseconds; 0: nothing "
+                 "(default 100, of a software rasteriser 0)")
+      ->check(CLI::Range(0.0, 10000.0));
   app.add_flag("--strict", options.strict, "fail where there is a note: nothing is made up, left out or changed");
   app.add_option("--exposure", options.exposureStops,
                  "of the PNG, in stops (default: by the first picture's brightness)")

@@ -63,6 +63,7 @@ struct Options {
   bool missing = false;             ///< whether to draw nothing, and name the frames that are not
   tyndall::Changes changes = tyndall::Changes::Unknown; ///< how frames after the first reuse what they can
   std::optional<int> repeat;                            ///< none: render once, without a warm-up
+  std::optional<double> bandMilliseconds;               ///< none: tyndall::Tuning's own
   std::optional<std::filesystem::path> programs;        ///< where linked programs are kept; none: all are compiled
   std::optional<host::ContextKind> context;             ///< none: host::defaultContextKind()
   std::vector<std::filesystem::path> out;

@@ -22,8 +22,8 @@ constexpr double kLamp = 1.5, kColoured = 1.2, kGlass = 1.5, kCurves = 3, kBilin
 // (DebugView::NodeVisits).
 constexpr double kTreeSteps = 512;
 
-// Rasterisers work on squares of pixels: bands are as high and wide as some of these, if they may be.
-constexpr int kBlock = 8;
+// Rasterisers shade squares of pixels together: bands are as high and wide as some of these, if they may be.
+constexpr int kBlock = 4;
 
 double stepsOf(const PassRow& row, const RayPaths& paths) {
   const double across = static_cast<double>(paths.map.width) + paths.map.height; // cells that a line may cross

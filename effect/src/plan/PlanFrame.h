@@ -16,13 +16,13 @@ struct PlanInputs {
   const Frame& frame;
   const FrameTextures& textures;
   const Limits& limits;
+  const Tuning& tuning;
   Targets& targets;
   KeptEye* eye = nullptr; ///< temporal reuse; null: nothing is kept
   bool counts = true;     ///< queries may be used: none of the engine's own is under way
   // To compile ahead of frames like this one:
   bool ahead = false;              ///< with a camera that may look elsewhere
   std::optional<bool> sumsApart{}; ///< lights may, or may not, need a texture of their own to be added up in
-  double bandMilliseconds = 0;     ///< Tuning::bandMilliseconds
 };
 
 struct PlannedFrame {
