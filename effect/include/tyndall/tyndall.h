@@ -346,7 +346,8 @@ struct Tuning {
   Compositing compositing = Compositing::Auto;
   /// Milliseconds that a draw may take on a slow GPU, at most 10000: a driver resets one that takes longer than half a
   /// second to two seconds. A draw that may take longer, by its rays and the shadow texels that they may cross, is
-  /// drawn in bands, each handed to the GPU by itself. 0: none is; negative: as the table of tunings has it.
+  /// drawn in bands, each handed to the GPU by itself; timer queries of earlier frames correct the guess. 0: none is;
+  /// negative: as the table of tunings has it.
   double bandMilliseconds = -1;
 };
 

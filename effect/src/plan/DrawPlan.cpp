@@ -45,8 +45,9 @@ void forEachDraw(const FramePlan& plan, Function&& function) {
 // Sets GL state for one draw after the other, of what has changed only.
 class Drawer {
 public:
-  Drawer(const gl::Functions& gl, const DrawObjects& objects, PassRecorder& recorder, double bandMilliseconds)
-      : gl_(gl), objects_(objects), recorder_(recorder), most_(bandMilliseconds) {}
+  Drawer(const gl::Functions& gl, const DrawObjects& objects, PassRecorder& recorder, BandPaces& paces,
+         double bandMilliseconds)
+      : gl_(gl), objects_(objects), recorder_(recorder), paces_(paces), most_(bandMilliseconds) {}
 
   void begin();
   void operator()(const Upload& upload);
@@ -77,6 +78,7 @@ private:
   const gl::Functions& gl_;
   const DrawObjects& objects_;
   PassRecorder& recorder_;
+  BandPaces& paces_;
   std::array<int, 3> blocks_ = {-1, -1, -1};
   std::vector<Bound> units_;
   std::vector<gl::Uint> samplers_; // of the units; 0: none, or the engine's
@@ -136,17 +138,16 @@ void Drawer::drawVertices(const Draw& draw) {
 }
 
 void Drawer::drawBands(const Draw& draw) {
-  if (draw.isWhole()) {
-    endScissor();
-    submit(draw.bands.milliseconds);
-    return drawVertices(draw);
-  }
+  const bool learns = draw.bands.estimate > 0;
+  if (learns) paces_.begin(draw.title, draw.bands.estimate, draw.bandCount());
+  if (draw.isWhole()) endScissor();
   bool first = true;
   forEachBand(draw.viewport, draw.bands.size, [&](const Viewport& band) {
     if (!std::exchange(first, false)) recorder_.nextBand();
     submit(draw.bands.milliseconds);
-    setScissor(band);
+    if (!draw.isWhole()) setScissor(band);
     drawVertices(draw);
+    if (learns) paces_.endBand();
   });
 }
 
@@ -289,8 +290,9 @@ UnitsUsed unitsOf(const FramePlan& plan) {
   return used;
 }
 
-void drawPlan(const FramePlan& plan, const gl::Functions& gl, const DrawObjects& objects, PassRecorder& recorder) {
-  Drawer drawer(gl, objects, recorder, plan.bandMilliseconds);
+void drawPlan(const FramePlan& plan, const gl::Functions& gl, const DrawObjects& objects, PassRecorder& recorder,
+              BandPaces& paces) {
+  Drawer drawer(gl, objects, recorder, paces, plan.bandMilliseconds);
   drawer.begin();
   for (const Step& step : plan.steps)
     std::visit(drawer, step);

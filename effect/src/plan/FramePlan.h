@@ -2,6 +2,7 @@
 #pragma once
 
 #include "PassRecorder.h"
+#include "Rounding.h"
 #include "SharedBlocks.h"
 #include "gl/Variant.h"
 #include "plan/Resources.h"
@@ -37,19 +38,20 @@ struct Viewport {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-/// The rectangles that a draw is drawn in, one after the other: no longer than a limit each.
+/// The rectangles that a draw is drawn in, one after the other: none takes longer than a limit.
 struct Bands {
-  Size size;               ///< of each; of what is left at the right and at the top less. 0, 0: the draw is whole
+  Size size;               ///< of each; of what is left at the right and at the top less. 0, 0: there is one
   double milliseconds = 0; ///< that one may take
+  double estimate = 0;     ///< the same before what was learned of it; 0: nothing is to be
 };
 
 /// From the lowest row on, each from left to right.
 template <typename Function>
 void forEachBand(const Viewport& all, const Size& size, Function&& function) {
-  for (int y = 0; y < all.height; y += size.height)
-    for (int x = 0; x < all.width; x += size.width)
-      function(
-          Viewport{all.x + x, all.y + y, std::min(size.width, all.width - x), std::min(size.height, all.height - y)});
+  const int width = size.width > 0 ? size.width : all.width, height = size.height > 0 ? size.height : all.height;
+  for (int y = 0; y < all.height; y += height)
+    for (int x = 0; x < all.width; x += width)
+      function(Viewport{all.x + x, all.y + y, std::min(width, all.width - x), std::min(height, all.height - y)});
 }
 
 /// Texels of the CPU's for a texture of our own.
@@ -93,9 +95,11 @@ struct Draw {
   };
   std::vector<Reading> textures;
 
-  bool isWhole() const { // in one band
-    return bands.size.width == 0 || (bands.size.width >= viewport.width && bands.size.height >= viewport.height);
+  int bandCount() const {
+    const auto parts = [](int length, int part) { return part > 0 ? unitsFor(length, part) : 1; };
+    return parts(viewport.width, bands.size.width) * parts(viewport.height, bands.size.height);
   }
+  bool isWhole() const { return bandCount() == 1; }
 };
 
 /// A pass that is not drawn, and why.

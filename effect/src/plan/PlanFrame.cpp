@@ -69,6 +69,7 @@ FramePlanner::FramePlanner(const PlanInputs& inputs, Allocator& allocator, Plann
   passes_.extent.width = frame_.width;
   passes_.extent.height = frame_.height;
   passes_.paths.depthSamples = in_.textures.depthSamples;
+  passes_.paces = in_.paces;
   out.plan.bandMilliseconds = in_.tuning.bandMilliseconds;
   passes_.board[frame_.depth.multisampled ? Resource::SceneDepthSamples : Resource::SceneDepth] = frame_.depth.texture;
 }

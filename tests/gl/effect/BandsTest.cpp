@@ -73,6 +73,23 @@ TEST_CASE("draws in bands of rows, of pixels, and of odd and tiny images give th
         checkSame(context, tests::frameCase(name), width, height, milliseconds);
 }
 
+TEST_CASE("draws in bands give the picture of whole draws after they have learned how long they take") {
+  FaultyContext context;
+  for (const char* name : {"epipolar, two lights, all targets", "tree", "exact", "epipolar, lamp"}) {
+    CAPTURE(name);
+    const std::unique_ptr<Effect> whole = effectOf(context, 0), banded = effectOf(context, kSquares);
+    Stage stage(tests::frameCase(name), 24, 16);
+    const tests::TargetContents expected = stage.draw(*whole);
+    int first = 0, last = 0;
+    for (int i = 0; i < 8; ++i) {
+      CHECK(tests::same(stage.draw(*banded), expected));
+      last = mostBands(banded->statistics());
+      if (i == 0) first = last;
+    }
+    CHECK(last > first); // a draw alone takes longer than this
+  }
+}
+
 TEST_CASE("bands: a limit that no draw reaches changes no call") {
   FaultyContext context;
   for (const char* name : {"epipolar, two lights", "exact, lamp, all targets", "detect, a part"}) {

@@ -47,6 +47,7 @@ struct Planned {
   int mapSize = 4096;
   int depthSamples = 1;
   gl::Functions gl;
+  const BandPaces* paces = nullptr;
   FramePlan plan;
 
   Planned(int width, int height, Technique technique) {
@@ -83,7 +84,7 @@ struct Planned {
     PlannedFrame planned;
     Tuning tuning;
     tuning.bandMilliseconds = milliseconds;
-    const PlanInputs inputs{frame, textures, limits, tuning, targets};
+    const PlanInputs inputs{frame, textures, limits, tuning, targets, nullptr, true, paces};
     FramePlanner(inputs, allocator, planned).plan();
     plan = planned.plan;
     std::vector<Draw> draws;
@@ -239,6 +240,7 @@ gl::Functions loggedFunctions() {
   gl.DeleteQueries = [](gl::Sizei, const gl::Uint*) {};
   gl.BeginQuery = [](gl::Enum, gl::Uint) { calls.emplace_back("begin query"); };
   gl.EndQuery = [](gl::Enum) { calls.emplace_back("end query"); };
+  gl.QueryCounter = [](gl::Uint, gl::Enum) { calls.emplace_back("stamp"); };
   gl.Flush = [] { calls.emplace_back("flush"); };
   return gl;
 }
@@ -257,7 +259,8 @@ std::vector<std::string> callsOf(const FramePlan& plan) {
   calls.clear();
   const BlockBuffers blocks(gl);
   PassRecorder recorder(gl, PassTiming::Off);
-  drawPlan(plan, gl, {1, 1, 1, blocks}, recorder);
+  BandPaces paces(gl);
+  drawPlan(plan, gl, {1, 1, 1, blocks}, recorder, paces);
   return calls;
 }
 
@@ -280,9 +283,51 @@ TEST_CASE("GL is not given more at once than a draw may take, and boxes hold for
                                  "scissor off", "clear", "draw"});
 }
 
+TEST_CASE("a draw that is learned from is stamped before its bands and after each") {
+  FramePlan plan;
+  plan.bandMilliseconds = 100;
+  Draw draw = drawOf({16, 8}, 160, 100);
+  draw.bands.estimate = 40;
+  plan.steps.emplace_back(draw);
+  CHECK(callsOf(plan) == std::vector<std::string>{"stamp", "box 0 0 16 4", "scissor on", "draw", "stamp", "flush",
+                                                  "box 0 4 16 4", "draw", "stamp", "scissor off"});
+}
+
 TEST_CASE("without a limit a draw is one call and nothing is flushed") {
   FramePlan plan;
   for (int i = 0; i < 3; ++i)
     plan.steps.emplace_back(drawOf({16, 16}, 1e9, 0));
   CHECK(callsOf(plan) == std::vector<std::string>{"draw", "draw", "draw"});
+}
+
+TEST_CASE("what was learned of a draw makes its bands shorter or longer, and what may be too long is learned from") {
+  static double now = 0, slower = 1;
+  gl::Functions gl = loggedFunctions();
+  gl.QueryCounter = [](gl::Uint, gl::Enum) {};
+  gl.GetQueryObjectui64v = [](gl::Uint, gl::Enum what, gl::Uint64* value) {
+    *value = what == gl::QUERY_RESULT ? static_cast<gl::Uint64>(1e6 * (now += slower)) : 1;
+  };
+  Planned planned(1920, 1080, Technique::Exact);
+  planned.add(LightKind::Directional);
+  planned.frame.output.transmittance = 9;
+  const int known = countOf(drawNamed(planned.draws(100), "exact light 0"));
+  for (const double pace : {0.25, 4.0, 100.0}) {
+    BandPaces paces(gl);
+    slower = pace;
+    for (int frame = 0; frame < 5; ++frame) {
+      paces.beginFrame();
+      paces.begin("exact light 0", 1, 1);
+      paces.endBand();
+    }
+    planned.paces = &paces;
+    const std::vector<Draw> draws = planned.draws(100);
+    const Draw& exact = drawNamed(draws, "exact light 0");
+    CAPTURE(pace, known, countOf(exact));
+    const double learned = std::clamp(pace, 0.8, BandPaces::kMost); // whole blocks make up to twice as many
+    CHECK(countOf(exact) >= 0.9 * learned * known);
+    CHECK(countOf(exact) <= 2 * learned * known);
+    CHECK(exact.bands.milliseconds <= 100);
+    CHECK(exact.bands.estimate == Approx(exact.bands.milliseconds / paces.of("exact light 0")));
+    CHECK(drawNamed(draws, "transmittance").bands.estimate == 0); // it follows no rays
+  }
 }
