@@ -7,14 +7,10 @@
 #include "lib/camera.glsl"
 #include "lib/depth.glsl"
 #include "lib/slices.glsl"
+#include "lib/changes.glsl"
 
 const int kTile = 16;
 
-uniform sampler2D changedSegments;
-uniform sampler2D changedSlices;
-uniform sampler2D sampleEnds;
-uniform sampler2D lastDepth;
-uniform sampler2D movedSlices;
 layout(location = 0) out vec4 outTile;
 
 // The slices around the pixels of a tile: the first, and how many. All of them where the epipole is near.
@@ -41,21 +37,6 @@ float farthestEnd(ivec2 first, ivec2 last) {
   return end;
 }
 
-// What a slice means to the pixels of a tile: x: samples that serve them have changed; y: pixels that end behind the result are marched by
-// themselves, and its row has changed; else infinite.
-vec2 changeOf(int slice, vec2 low, vec2 high) {
-  vec4 line = texelFetch(sliceTable, ivec2(slice, 1), 0);
-  vec4 at = line.z + vec4(dot(low, line.xy), dot(vec2(high.x, low.y), line.xy), dot(vec2(low.x, high.y), line.xy), dot(high, line.xy));
-  float least = min(min(at.x, at.y), min(at.z, at.w)), most = max(max(at.x, at.y), max(at.z, at.w));
-  int first = int(clamp(least, 0.0, line.w)), last = int(clamp(most + 1.0, 0.0, line.w));
-  float changed = 0.0, farther = 0.0;
-  for (int i = first >> 4; i <= last >> 4; ++i) changed = max(changed, texelFetch(changedSegments, ivec2(slice, i), 0).r);
-  if (texelFetch(changedSlices, ivec2(slice, 0), 0).a == 0.0) return vec2(changed, 3e38);
-  if (least < 0.0 || most > line.w) return vec2(1.0, 0.0); // beside the slice's samples
-  for (int i = first; i <= last; ++i) farther = max(farther, texelFetch(sampleEnds, ivec2(slice, i), 0).r);
-  return vec2(changed, 1.0001 * farther);
-}
-
 void main() {
   int across = (frameSize.x + kTile - 1) / kTile, tile = int(gl_FragCoord.x) + 256 * int(gl_FragCoord.y);
   ivec2 first = kTile * ivec2(tile % across, tile / across), last = min(first + kTile, frameSize) - 1;
@@ -63,10 +44,10 @@ void main() {
   vec2 low = vec2(first) + 0.5, high = vec2(last) + 0.5;
   ivec2 slices = slicesOf(low, high);
   bool changed = false, compared = false;
-  float alone = 3e38;
+  float alone = kNoEnd;
   for (int i = 0; i < slices.y && !changed; ++i) {
     int slice = wrapped(slices.x + i);
-    if (comparesSome != 0 && texelFetch(movedSlices, ivec2(slice, 0), 0).g == 0.0) continue;
+    if (!isCompared(slice)) continue;
     vec2 change = changeOf(slice, low, high);
     compared = true;
     changed = change.x > 0.0;
@@ -74,8 +55,8 @@ void main() {
   }
   for (int y = first.y; comparesDepth != 0 && y <= last.y && compared && !changed; ++y)
     for (int x = first.x; x <= last.x; ++x)
-      changed = changed || floatBitsToInt(depthAt(ivec2(x, y))) != floatBitsToInt(texelFetch(lastDepth, ivec2(x, y), 0).r);
-  if (!changed && alone < 3e38) changed = farthestEnd(first, last) > alone;
+      changed = changed || hasDepthChanged(ivec2(x, y));
+  if (!changed && alone < kNoEnd) changed = farthestEnd(first, last) > alone;
   if (!changed) discard;
   outTile = vec4(1.0);
 }

@@ -13,8 +13,7 @@
 Light ownedLight(Airlight light, ViewSegment segment, int slice) { return segmentLight(light, segment); }
 #endif
 
-layout(location = 0, index = 0) out vec4 outInscatter;
-layout(location = 0, index = 1) out vec4 outTransmittance;
+#include "lib/outputs.glsl"
 
 // Of a pixel's samples: where the first of those ends that end behind `from`, and how many do.
 vec2 nextEnd(float from) {

@@ -12,8 +12,7 @@
 #include "lib/trueLine.glsl"
 #include "lib/row.glsl"
 
-layout(location = 0, index = 0) out vec4 outInscatter;
-layout(location = 0, index = 1) out vec4 outTransmittance;
+#include "lib/outputs.glsl"
 
 void main() {
   float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy))), 0.0);

@@ -1,7 +1,6 @@
 // Interpolate: inscatter of every sample, linearly between the nearest march samples of its slice; there is no break
 // between them. Reads the slice table, sampleEnds, marks, extraOffsets, marched (slices x segments) and extra (slices x samples / 4).
-// Writes epipolarInscatter: slices x samples, with the
-// sample's end coordinate (lib/stored.glsl).
+// Writes epipolarInscatter: slices x samples, with the sample's end coordinate (lib/stored.glsl); in parts only changedSegments.
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/slices.glsl"
@@ -19,9 +18,8 @@ uniform sampler2D extra;
 uniform sampler2D extraGreen;
 uniform sampler2D extraBlue;
 #endif
-#ifdef CHANGED
 uniform sampler2D changedSegments;
-#endif
+flat in int isPart;
 layout(location = 0) out vec4 outInscatter;
 
 // Inscatter of a marked sample: bit `bit` of segment s of the chunk.
@@ -38,9 +36,7 @@ vec3 marchedAt(int slice, int chunk, int offset, ivec4 masks, int s, int bit) {
 
 void main() {
   int slice = int(gl_FragCoord.x), index = int(gl_FragCoord.y), samples = sliceSamples(slice);
-#ifdef CHANGED
-  if (texelFetch(changedSegments, ivec2(slice, index >> 4), 0).r == 0.0) discard;
-#endif
+  if (isPart != 0 && texelFetch(changedSegments, ivec2(slice, index >> 4), 0).r == 0.0) discard;
   int chunk = index >> 6, s = (index >> 4) & 3, bit = index & 15;
   ivec4 masks = masksOf(texelFetch(marks, ivec2(slice, chunk), 0));
   int offset = int(texelFetch(extraOffsets, ivec2(slice, chunk), 0).r);

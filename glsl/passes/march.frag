@@ -22,8 +22,7 @@ uniform sampler2D sampleEnds;
 uniform sampler2D changedSegments;
 flat in int isImage;
 flat in int isPart;
-layout(location = 0, index = 0) out vec4 outInscatter;
-layout(location = 0, index = 1) out vec4 outTransmittance;
+#include "lib/outputs.glsl"
 
 // What is marched: a window position, the slice and where its ray ends; not if `marched` is false.
 struct Target {

@@ -5,8 +5,7 @@
 #include "lib/depthSamples.glsl"
 
 #if COMPOSITE
-layout(location = 0, index = 0) out vec4 outInscatter;
-layout(location = 0, index = 1) out vec4 outTransmittance;
+#include "lib/outputs.glsl"
 #else
 layout(location = 0) out vec4 outInscatter;
 layout(location = 1) out vec4 outTransmittance;

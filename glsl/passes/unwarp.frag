@@ -18,8 +18,7 @@ vec3 spreadUnit; // radiance of a unit of stored light at this pixel, as a part 
 #endif
 
 #if COMPOSITE
-layout(location = 0, index = 0) out vec4 outInscatter;
-layout(location = 0, index = 1) out vec4 outTransmittance;
+#include "lib/outputs.glsl"
 #else
 layout(location = 0) out vec4 outInscatter;
 layout(location = 1) out vec4 outTransmittance;

@@ -1,5 +1,6 @@
 #include "Options.h"
 #include "OptionRules.h"
+#include "TuningOptions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -241,10 +242,6 @@ void addRest(CLI::App& app, Options& options, Given& given) {
              app.add_option("--context", options.context, "GL's (default osmesa; egl where it is not installed)"));
   app.add_flag("--no-program-cache", given.noProgramCache,
                "compile every shader: linked programs are neither read from the user's cache folder nor kept there");
-  app.add_option("--band-ms", options.bandMilliseconds,
-                 "draw in bands what may take a slow GPU longer, at once, than so many milliseconds; 0: nothing "
-                 "(default 100, of a software rasteriser 0)")
-      ->check(CLI::Range(0.0, 10000.0));
   app.add_flag("--strict", options.strict, "fail where there is a note: nothing is made up, left out or changed");
   app.add_option("--exposure", options.exposureStops,
                  "of the PNG, in stops (default: by the first picture's brightness)")
@@ -289,6 +286,7 @@ Options parseOptions(int argc, const char* const* argv) {
   app.add_option("SCENE", options.scene, "a glTF 2.0 file, .glb or .gltf")->required();
   addView(app, options, given.lookAt);
   addQuality(app, options);
+  addTuning(app, options.tuning);
   addShadows(app, options);
   addFrames(app, options, given);
   addRest(app, options, given);

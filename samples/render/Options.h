@@ -62,10 +62,10 @@ struct Options {
   bool resume = false;              ///< whether frames whose files are whole stay as they are
   bool missing = false;             ///< whether to draw nothing, and name the frames that are not
   tyndall::Changes changes = tyndall::Changes::Unknown; ///< how frames after the first reuse what they can
-  std::optional<int> repeat;                            ///< none: render once, without a warm-up
-  std::optional<double> bandMilliseconds;               ///< none: tyndall::Tuning's own
-  std::optional<std::filesystem::path> programs;        ///< where linked programs are kept; none: all are compiled
-  std::optional<host::ContextKind> context;             ///< none: host::defaultContextKind()
+  tyndall::Tuning tuning;
+  std::optional<int> repeat;                     ///< none: render once, without a warm-up
+  std::optional<std::filesystem::path> programs; ///< where linked programs are kept; none: all are compiled
+  std::optional<host::ContextKind> context;      ///< none: host::defaultContextKind()
   std::vector<std::filesystem::path> out;
   std::optional<std::filesystem::path> stats;
   bool strict = false;                 ///< whether a note ends it before a picture is written

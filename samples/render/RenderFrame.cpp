@@ -103,8 +103,8 @@ FrameRenderer::FrameRenderer(const Options& options)
   tyndall::Config config;
   config.loader = context_->loader();
   config.timing = timingFor(context_->driver());
+  config.tuning = options.tuning;
   if (options.programs) config.programs = host::programFiles(*options.programs);
-  if (options.bandMilliseconds) config.tuning.bandMilliseconds = *options.bandMilliseconds;
   tyndall::CreateResult created = tyndall::Effect::create(config);
   if (!created.status) throw host::Error("effect: " + created.status.message);
   effect_ = std::move(created.effect);

@@ -23,8 +23,9 @@ struct Way {
   double milliseconds = 0, share = 0, error = 0;
 };
 
-std::unique_ptr<tyndall::Effect> makeEffect(const render::FrameRenderer& renderer) {
-  tyndall::CreateResult created = tyndall::Effect::create({renderer.context().loader(), tyndall::PassTiming::Off});
+std::unique_ptr<tyndall::Effect> makeEffect(const render::FrameRenderer& renderer, const tyndall::Tuning& tuning) {
+  tyndall::CreateResult created = tyndall::Effect::create(
+      {renderer.context().loader(), tyndall::PassTiming::Off, {}, tyndall::StateMode::Restore, tuning});
   if (!created.status) throw host::Error("effect: " + created.status.message);
   return std::move(created.effect);
 }
@@ -69,7 +70,7 @@ int run(render::Options options) {
   render::FrameRenderer renderer(options);
   std::array<Way, kWays.size()> ways;
   for (Way& way : ways)
-    way.effect = makeEffect(renderer);
+    way.effect = makeEffect(renderer, options.tuning);
   host::print(fmt::format("# {}, {}x{}, shadow map {}, profile {}, {}\n", options.scene.filename().string(),
                           options.width, options.height, options.shadowSize, options.profile,
                           renderer.context().driver()));

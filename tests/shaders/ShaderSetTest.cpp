@@ -47,6 +47,20 @@ TEST_CASE("a definition inside a longer word does not make another program") {
   CHECK(distinct(allVariants()).size() + distinct(avsm::allVariants()).size() <= 400);
 }
 
+TEST_CASE("without dual-source blending no shader declares a second source, and there are no more programs") {
+  for (const gl::Variant& variant : allVariants(false)) {
+    if (shaderSource(variant.fragment).find("index = 1") == std::string::npos) continue;
+    const gl::Definitions defined = gl::mentioned(variant);
+    const bool none = std::any_of(defined.begin(), defined.end(), [](const auto& definition) {
+      const auto& [name, value] = definition;
+      return name == "ONE_SOURCE" || name == "COPIED" || (name == "COMPOSITE" && value == 0);
+    });
+    if (!none) FAIL_CHECK(gl::keyOf(variant));
+  }
+  CHECK(distinct(allVariants(false)).size() > 250);
+  CHECK(distinct(allVariants(false)).size() <= distinct(allVariants()).size());
+}
+
 TEST_CASE("shaders written as files have names and texts of their own") {
   std::set<std::string> names, texts;
   for (const auto& [name, text] : tests::allShaders()) {

@@ -26,7 +26,7 @@ void plan(LightPlanner& light, DebugView view) {
   case DebugView::MarchSamples:
     return planSamples(light, 2);
   case DebugView::FixupPixels:
-    return light.draw(Pass::DebugFixup, {{}, Stencil::OnlyUnserved});
+    return light.draw(Pass::DebugFixup, {{}, kOnlyUnserved});
   case DebugView::NodeVisits:
     return pixel_tree::planVisits(light);
   default:

@@ -52,7 +52,7 @@ void planToInterpolate(LightPlanner& light) {
     for (int draw = 0; draw < light.draws(); ++draw) {
       light.selectDraw(draw);
       if (light.draws() > 1) rows::plan(light); // else they are at hand
-      light.draw(march, {{}, Stencil::Off, counting});
+      light.draw(march, {{}, {}, counting});
     }
   };
   light.draw(Pass::Marks);
@@ -65,7 +65,7 @@ void planToInterpolate(LightPlanner& light) {
   light.draw(Pass::Refine);
   light.draw(Pass::Offsets);
   forEachDraw(Pass::MarchExtra, {Count::Marched});
-  light.draw(Pass::Interpolate, {light.drawnSlices ? gl::Definitions{{"CHANGED", 1}} : gl::Definitions{}});
+  light.draw(Pass::Interpolate);
 }
 
 } // namespace tyndall::passes::epipolar

@@ -43,8 +43,8 @@ void planPairs(LightPlanner& light) {
   const Extent& extent = light.extent;
   if (light.views() == 0 || extent.treeLevels == 0) return;
   const int groups = extent.drawnTexels / 4, nodes = rowOf(Resource::RowTree).drawn(extent).width;
-  light.draw(Pass::PairGroups, {{}, Stencil::Off, {}, Viewport{0, 0, groups, extent.rows}});
-  light.draw(Pass::PairTree, {{}, Stencil::Off, {}, Viewport{groups, 0, nodes, extent.rows}});
+  light.draw(Pass::PairGroups, {{}, {}, {}, Viewport{0, 0, groups, extent.rows}});
+  light.draw(Pass::PairTree, {{}, {}, {}, Viewport{groups, 0, nodes, extent.rows}});
 }
 
 } // namespace tyndall::passes::rows

@@ -11,7 +11,7 @@ namespace {
 // The few pixels that no sample serves: along their slice's row. With several draws only the last one's rows are at
 // hand, and to make them all again would take longer than every texel does.
 void planUnserved(LightPlanner& light, const Counting& counting) {
-  const DrawOptions options{{}, Stencil::OnlyUnserved, counting};
+  const DrawOptions options{{}, kOnlyUnserved, counting};
   const bool ahead = !light.allocator.makes(); // another camera has other slices
   if (light.draws() > 1 || ahead) light.drawLight(Pass::FixupAllTexels, options);
   if (light.draws() == 1 || ahead) light.drawLight(Pass::FixupAlongRow, options);
@@ -23,25 +23,37 @@ void planBetweenSlices(LightPlanner& light) {
     light.selectDraw(draw);
     if (light.draws() > 1) rows::plan(light); // only the last draw's rows are at hand
     rows::planPairs(light);
-    light.drawLight(Pass::FixupOwnLine, {{}, Stencil::OnlyUnserved});
+    light.drawLight(Pass::FixupOwnLine, {{}, kOnlyUnserved});
   }
+}
+
+// The tiles that hold a pixel to fix up.
+gl::Uint planTiles(LightPlanner& light) {
+  DrawOptions unserved{{}, kOnlyUnserved};
+  unserved.clearTo = 0;
+  light.draw(Pass::Unserved, unserved);
+  light.draw(Pass::UnservedTiles);
+  return light.board[Resource::UnservedTiles];
 }
 
 } // namespace
 
-// Nothing of it waits for how many pixels there are to fix up: the stencil keeps the others.
+// Nothing of it waits for how many pixels there are to fix up: the stencil keeps the others, or tiles without any are
+// not drawn (Tuning::fixup), of which the stencil keeps the others.
 void plan(LightPlanner& light) {
   const bool spread = std::isfinite(light.frame.settings.spreadThreshold);
+  const bool whole = light.drawnTiles == 0 && !light.drawsMarked; // else how many pixels are drawn is not known
   light.selectDraw(0);
   light.clearStencil();
-  const bool tiles = light.drawnTiles != 0; // how many pixels they have is not known
-  light.draw(Pass::Unwarp, {{{"SPREAD", spread ? 1 : 0}},
-                            Stencil::MarkServed,
-                            tiles ? Counting{} : Counting{Count::Served, light.pixels()}});
+  light.draw(Pass::Unwarp,
+             {{{"SPREAD", spread ? 1 : 0}}, kMarkServed, whole ? Counting{Count::Served, light.pixels()} : Counting{}});
+  const gl::Uint tiles = light.drawnTiles;
+  if (light.tuning.fixup == Masking::Tiles) light.drawnTiles = planTiles(light);
   if (spread)
     planBetweenSlices(light);
   else
-    planUnserved(light, tiles ? Counting{Count::FixedUp} : Counting{});
+    planUnserved(light, whole ? Counting{} : Counting{Count::FixedUp});
+  light.drawnTiles = tiles;
 }
 
 } // namespace tyndall::passes::unwarp

@@ -67,7 +67,7 @@ private:
   void bindFramebuffer(gl::Uint framebuffer);
   void bindBlocks(const Draw& draw);
   void setBlend(Blend blend);
-  void setStencil(Stencil stencil);
+  void setStencil(const Stencil& stencil);
   void setViewport(const Viewport& viewport);
   void setScissor(const Viewport& band);
   void endScissor();
@@ -84,7 +84,7 @@ private:
   std::vector<gl::Uint> samplers_; // of the units; 0: none, or the engine's
   gl::Uint active_ = 0, program_ = 0, framebuffer_ = 0;
   Blend blend_ = Blend::Replace;
-  Stencil stencil_ = Stencil::Off;
+  Stencil stencil_;
   Viewport viewport_{-1, -1, -1, -1};
   bool scissor_ = false;
   double most_, pending_ = 0; // milliseconds, of what GL gets at once; 0: no limit
@@ -97,7 +97,7 @@ void Drawer::begin() {
 
 void Drawer::end() {
   setBlend(Blend::Replace);
-  setStencil(Stencil::Off);
+  setStencil({});
   endScissor();
 }
 
@@ -112,7 +112,8 @@ void Drawer::operator()(const Clear& clear) {
   bindFramebuffer(clear.framebuffer);
   if (clear.stencil) {
     const gl::Int zero = 0;
-    gl_.StencilMask(0xFF);
+    setStencil({}); // the mask is the clear's
+    gl_.StencilMask(clear.stencil);
     gl_.ClearBufferiv(gl::STENCIL, 0, &zero);
   } else {
     gl_.ClearBufferfv(gl::COLOR, 0, &clear.colour.x);
@@ -236,15 +237,15 @@ void Drawer::setBlend(Blend blend) {
   blend_ = blend;
 }
 
-void Drawer::setStencil(Stencil stencil) {
+void Drawer::setStencil(const Stencil& stencil) {
   if (stencil == stencil_) return;
   stencil_ = stencil;
-  if (stencil == Stencil::Off) return gl_.Disable(gl::STENCIL_TEST);
-  const bool marks = stencil == Stencil::MarkServed;
+  if (stencil.isOff()) return gl_.Disable(gl::STENCIL_TEST);
   gl_.Enable(gl::STENCIL_TEST);
-  gl_.StencilMask(marks ? 0xFF : 0); // what writes none may be tested before it is shaded
-  gl_.StencilFunc(marks ? gl::ALWAYS : gl::EQUAL, marks ? 1 : 0, 0xFF);
-  gl_.StencilOp(gl::KEEP, gl::KEEP, marks ? gl::REPLACE : gl::KEEP);
+  gl_.StencilMask(stencil.marked); // what writes none may be tested before it is shaded
+  const auto reference = static_cast<gl::Int>(stencil.required | stencil.marked);
+  gl_.StencilFunc(stencil.tested ? gl::EQUAL : gl::ALWAYS, reference, stencil.tested);
+  gl_.StencilOp(gl::KEEP, gl::KEEP, stencil.marked ? gl::REPLACE : gl::KEEP);
 }
 
 void Drawer::setViewport(const Viewport& v) {
@@ -280,7 +281,7 @@ UnitsUsed unitsOf(const FramePlan& plan) {
   used.count = 1; // tables are uploaded through the first
   forEachDraw(plan, [&](const Draw& draw) {
     used.scissor = used.scissor || !draw.isWhole();
-    used.stencil = used.stencil || draw.stencil != Stencil::Off;
+    used.stencil = used.stencil || !draw.stencil.isOff();
     for (const Draw::Reading& reading : draw.textures) {
       used.count = std::max(used.count, static_cast<int>(reading.unit) + 1);
       used.arrays = used.arrays || reading.target == gl::TEXTURE_2D_ARRAY;

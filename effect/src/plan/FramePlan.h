@@ -28,11 +28,22 @@ enum class Blend {
   Colour,     ///< overwrite rgb; alpha stays
 };
 
-enum class Stencil {
-  Off,
-  MarkServed,   ///< 1 where a fragment is written
-  OnlyUnserved, ///< only where it is 0
+/// A pixel's bits in the stencil buffer: what it lets a draw into, and what the draw leaves there. Off without either.
+struct Stencil {
+  static constexpr gl::Uint kServed = 1;  ///< by unwarp
+  static constexpr gl::Uint kChanged = 2; ///< temporal reuse: it is drawn anew
+  static constexpr gl::Uint kAll = 0xFF;
+
+  gl::Uint tested = 0;   ///< bits that must be as `required` has them
+  gl::Uint required = 0; ///< of those, the ones that must be set
+  gl::Uint marked = 0;   ///< bits that are set where a fragment is written
+  bool isOff() const { return tested == 0 && marked == 0; }
+  bool operator==(const Stencil& other) const {
+    return tested == other.tested && required == other.required && marked == other.marked;
+  }
 };
+inline constexpr Stencil kMarkServed{0, 0, Stencil::kServed}, kMarkChanged{0, 0, Stencil::kChanged},
+    kOnlyUnserved{Stencil::kServed};
 
 struct Viewport {
   int x = 0, y = 0, width = 0, height = 0;
@@ -63,7 +74,7 @@ struct Upload {
 
 struct Clear {
   gl::Uint framebuffer = 0;
-  bool stencil = false; ///< to 0; else the first colour, to:
+  gl::Uint stencil = 0; ///< these bits, to 0; none: the first colour, to:
   glm::vec4 colour{0};
 };
 
@@ -82,7 +93,7 @@ struct Draw {
   Viewport viewport;
   Bands bands;
   Blend blend = Blend::Replace;
-  Stencil stencil = Stencil::Off;
+  Stencil stencil;
   Counting counting;
   int firstVertex = 0, vertices = 3, instances = 1;
   std::array<int, 3> blocks{}; ///< frame, light, epipolar: index of the block; 0: none

@@ -3,14 +3,16 @@
 namespace tyndall {
 
 gl::Definitions definitionsOf(const LightVariant& v) {
-  return {{"LIGHT_KIND", v.lightKind},
-          {"SHADOW_VIEWS", v.shadowViews},
-          {"SHADOW_ARRAY", v.shadowArray},
-          {"FILTER_BILINEAR", v.bilinear},
-          {"GLASS", v.glass},
-          {"CURVES", v.curves},
-          {"MONOCHROME", v.monochrome},
-          {"COMPOSITE", v.composite}};
+  gl::Definitions definitions = {{"LIGHT_KIND", v.lightKind},
+                                 {"SHADOW_VIEWS", v.shadowViews},
+                                 {"SHADOW_ARRAY", v.shadowArray},
+                                 {"FILTER_BILINEAR", v.bilinear},
+                                 {"GLASS", v.glass},
+                                 {"CURVES", v.curves},
+                                 {"MONOCHROME", v.monochrome},
+                                 {"COMPOSITE", v.composite}};
+  if (!v.dualSource) definitions.emplace_back("ONE_SOURCE", 1);
+  return definitions;
 }
 
 LightVariant served(LightVariant variant) {
@@ -20,12 +22,14 @@ LightVariant served(LightVariant variant) {
   return variant;
 }
 
-std::vector<LightVariant> allLightVariants() {
+std::vector<LightVariant> allLightVariants(bool dualSource) {
   std::vector<LightVariant> all;
   const auto add = [&](const LightVariant& variant) {
     for (const bool monochrome : {false, true})
       for (const bool composite : {false, true}) {
+        if (composite && !dualSource) continue;
         LightVariant v = variant;
+        v.dualSource = dualSource;
         v.monochrome = monochrome;
         v.composite = composite;
         all.push_back(served(v));

@@ -16,6 +16,7 @@ struct LightVariant {
   bool curves = false; ///< smoke and hair dim the light (Light::curves)
   bool monochrome = false;
   bool composite = false; ///< dual-source outputs of unwarp and transmittance instead of two targets
+  bool dualSource = true; ///< the context has such outputs, and uses them
 
   bool hasShares() const { return shadowViews > 0 && (glass || bilinear); }
   bool isColoured() const { return !monochrome || glass; } ///< three channels of radiance
@@ -27,7 +28,7 @@ gl::Definitions definitionsOf(const LightVariant& variant);
 /// one filter, glass or smoke, or a sun of glass and smoke.
 LightVariant served(LightVariant variant);
 
-/// Every variant that a frame can ask for.
-std::vector<LightVariant> allLightVariants();
+/// Every variant that a frame can ask for in a context with dual-source blending, or without.
+std::vector<LightVariant> allLightVariants(bool dualSource);
 
 } // namespace tyndall

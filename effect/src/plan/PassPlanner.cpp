@@ -51,7 +51,7 @@ void PassPlanner::draw(Pass pass, const std::string& title, const DrawOptions& o
   draw.variant = variantOf(pass, variant, options.options);
   draw.firstVertex = firstVertexOf(pass, changes);
   draw.blend = blendOf(row.joining, options.adds);
-  draw.stencil = options.stencil;
+  draw.stencil = stencilFor(row.shape, options.stencil);
   draw.counting = options.counting;
   draw.blocks = {frameBlock, lightBlock, epipolarBlock};
   addReads(row, draw);
@@ -59,8 +59,7 @@ void PassPlanner::draw(Pass pass, const std::string& title, const DrawOptions& o
   if (options.viewport) draw.viewport = *options.viewport;
   addBands(row, draw);
   addVertices(row.shape, changes, draw);
-  if (options.clearTo)
-    plan.steps.emplace_back(Clear{draw.framebuffer, false, {*options.clearTo, 0, 0, *options.clearTo}});
+  if (options.clearTo) plan.steps.emplace_back(Clear{draw.framebuffer, 0, {*options.clearTo, 0, 0, *options.clearTo}});
   plan.steps.emplace_back(std::move(draw));
 }
 
@@ -74,11 +73,12 @@ void PassPlanner::drawLight(Pass pass, const std::string& title, DrawOptions opt
 
 void PassPlanner::clear(Resource resource, float red) {
   board[resource] = textureOf(resource);
-  plan.steps.emplace_back(Clear{imageTarget({board[resource]}, false), false, {red, 0, 0, red}});
+  plan.steps.emplace_back(Clear{imageTarget({board[resource]}, false), 0, {red, 0, 0, red}});
 }
 
 void PassPlanner::clearStencil() {
-  plan.steps.emplace_back(Clear{destinationTarget(blendOf(Joining::SumOfLights, false), true), true});
+  const gl::Uint target = destinationTarget(blendOf(Joining::SumOfLights, false), true);
+  plan.steps.emplace_back(Clear{target, drawsMarked ? Stencil::kServed : Stencil::kAll});
 }
 
 gl::Uint PassPlanner::textureOf(Resource resource) {
@@ -99,6 +99,13 @@ bool PassPlanner::isOverChanges(Shape shape) const {
   }
 }
 
+Stencil PassPlanner::stencilFor(Shape shape, Stencil stencil) const {
+  if (!drawsMarked || (shape != Shape::Image && shape != Shape::ImageOfMarch)) return stencil;
+  stencil.tested |= Stencil::kChanged;
+  stencil.required |= Stencil::kChanged;
+  return stencil;
+}
+
 // A shape's own come last: they are 0 where all is drawn.
 void PassPlanner::addReads(const PassRow& row, Draw& draw) const {
   for (const Read& read : row.reads)
@@ -110,10 +117,10 @@ void PassPlanner::addReads(const PassRow& row, Draw& draw) const {
 
 void PassPlanner::addTarget(const PassRow& row, const DrawOptions& options, Draw& draw) {
   draw.viewport = {0, 0, extent.width, extent.height};
-  const bool withStencil = options.stencil != Stencil::Off;
+  const bool withStencil = !draw.stencil.isOff();
   switch (row.into) {
   case Into::Own:
-    addOwnTarget(row, draw);
+    addOwnTarget(row, withStencil, draw);
     break;
   case Into::Destination:
     draw.framebuffer = destinationTarget(draw.blend, withStencil);
@@ -130,8 +137,9 @@ void PassPlanner::addTarget(const PassRow& row, const DrawOptions& options, Draw
   }
 }
 
-void PassPlanner::addOwnTarget(const PassRow& row, Draw& draw) {
+void PassPlanner::addOwnTarget(const PassRow& row, bool withStencil, Draw& draw) {
   Attachments attachments;
+  if (withStencil) attachments.stencil = allocator.stencil(frameTargets, extent);
   std::size_t count = 0;
   for (const Resource resource : row.writes) {
     if (!rowOf(resource).exists(extent)) continue;

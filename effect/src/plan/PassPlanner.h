@@ -44,7 +44,7 @@ struct Destination {
 
 struct DrawOptions {
   gl::Definitions options = {}; ///< beside those of the light
-  Stencil stencil = Stencil::Off;
+  Stencil stencil = {};
   Counting counting = {};
   std::optional<Viewport> viewport = {}; ///< in place of what the resource's row says
   std::optional<float> clearTo = {};     ///< clears the target first
@@ -54,8 +54,8 @@ struct DrawOptions {
 
 class PassPlanner {
 public:
-  PassPlanner(Allocator& made, FramePlan& steps, Targets& targets)
-      : allocator(made), plan(steps), frameTargets(targets) {}
+  PassPlanner(Allocator& made, FramePlan& steps, Targets& targets, const Tuning& choices)
+      : allocator(made), plan(steps), frameTargets(targets), tuning(choices) {}
   PassPlanner(const PassPlanner&) = default;
   PassPlanner& operator=(const PassPlanner&) = delete;
   virtual ~PassPlanner() = default;
@@ -66,7 +66,7 @@ public:
   void drawLight(Pass pass, const std::string& title, DrawOptions options);
   void drawLight(Pass pass, const DrawOptions& options = {}) { drawLight(pass, titleOf(rowOf(pass).name), options); }
   void clear(Resource resource, float red); ///< of the whole image
-  void clearStencil();
+  void clearStencil();                      ///< of what unwarp marks
   std::uint64_t pixels() const {
     return static_cast<std::uint64_t>(extent.width) * static_cast<std::uint64_t>(extent.height);
   }
@@ -75,6 +75,7 @@ public:
   Allocator& allocator;
   FramePlan& plan;
   Targets& frameTargets;
+  const Tuning& tuning;
   Targets* eyeTargets = nullptr; ///< temporal reuse: of the frame's eye
   Board board;                   ///< what passes find, and what they leave
   Extent extent;
@@ -88,6 +89,7 @@ public:
   int frameBlock = 0, lightBlock = 0, epipolarBlock = 0;
   /// Temporal reuse: only these slices, segments and tiles are drawn; 0: all are.
   gl::Uint drawnSlices = 0, drawnSegments = 0, drawnTiles = 0;
+  bool drawsMarked = false; ///< the same: only pixels that the stencil has as changed
 
   /// The texture of one of our resources, made if need be.
   gl::Uint textureOf(Resource resource);
@@ -101,9 +103,10 @@ protected:
 private:
   std::string titleOf(const std::string& pass) const { return name.empty() ? pass : name + " " + pass; }
   bool isOverChanges(Shape shape) const;
+  Stencil stencilFor(Shape shape, Stencil stencil) const;
   void addReads(const PassRow& row, Draw& draw) const;
   void addTarget(const PassRow& row, const DrawOptions& options, Draw& draw);
-  void addOwnTarget(const PassRow& row, Draw& draw);
+  void addOwnTarget(const PassRow& row, bool withStencil, Draw& draw);
   void addVertices(Shape shape, bool changes, Draw& draw) const;
   void addBands(const PassRow& row, Draw& draw) const;
   Blend blendOf(Joining joining, bool adds) const;

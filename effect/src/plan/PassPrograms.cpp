@@ -81,15 +81,17 @@ int firstVertexOf(Pass pass, bool changes) {
   return changes ? vertices.changed : vertices.whole;
 }
 
-std::vector<gl::Variant> allVariants() {
+std::vector<gl::Variant> allVariants(bool dualSource) {
   std::vector<gl::Variant> all;
   for (std::size_t i = 0; i < static_cast<std::size_t>(Pass::Count); ++i) {
     const auto pass = static_cast<Pass>(i);
     if (!rowOf(pass).ofLights) {
-      addVariants(pass, {}, all);
+      LightVariant any;
+      any.dualSource = dualSource;
+      addVariants(pass, any, all);
       continue;
     }
-    for (const LightVariant& light : allLightVariants())
+    for (const LightVariant& light : allLightVariants(dualSource))
       addVariants(pass, light, all);
   }
   return all;

@@ -12,6 +12,8 @@ using O = const Occurrence&;
 const Option kHashes{"ROW_HASHES", {kUndefined, 1}}, kTintSums{"TINT_SUMS", {kUndefined, 1}},
     kStripsOfRows{"STRIPS_OF_ROWS", {1}};
 
+bool blendsTwoSources(O o) { return o.light.dualSource; }
+bool copiesColour(O o) { return !o.light.dualSource; }
 bool hasRows(O o) { return o.light.shadowViews > 0; }
 bool hasCurves(O o) { return o.light.curves; }
 bool hasPanes(O o) { return o.light.glass && !o.light.curves; }
@@ -111,6 +113,19 @@ std::vector<PassRow> makeRows() {
           .reads({R::Inscatter, R::Transmittance})
           .into(Into::Colour)
           .joins(Joining::BlendIntoColour)
+          .when(blendsTwoSources)
+          .sameForAllLights(),
+      Row(Pass::CopyColour, "copy colour", "passes/copyTexels.frag", S::Image)
+          .reads({R::Image})
+          .writes({R::ColourCopy})
+          .when(copiesColour)
+          .sameForAllLights(),
+      Row(Pass::CompositeOfCopy, "composite", "passes/composite.frag")
+          .reads({R::Inscatter, R::Transmittance, R::ColourCopy})
+          .into(Into::Colour)
+          .joins(Joining::OverwriteRgb)
+          .options({{"COPIED", {1}}})
+          .when(copiesColour)
           .sameForAllLights(),
       Row(Pass::CopyToOutput, "output", "passes/copyTexels.frag", S::Image)
           .reads({R::Image})
@@ -229,14 +244,18 @@ std::vector<PassRow> makeRows() {
                   R::Extra,
                   R::ExtraGreen,
                   R::ExtraBlue})
-          .writes({R::EpipolarInscatter})
-          .options({{"CHANGED", {kUndefined, 1}}}),
+          .writes({R::EpipolarInscatter}),
       Row(Pass::Unwarp, "unwarp", "passes/unwarp.frag", S::Image)
           .reads({R::SceneDepth, R::SliceTable, R::EpipolarInscatter, R::MeanLight})
           .into(Into::Destination)
           .joins(kSumOfLights)
           .options({{"SPREAD", {0, 1}}})
           .when(isUnwarped),
+      Row(Pass::Unserved, "unserved", "passes/red.frag", S::Image).writes({R::Unserved}).sameForAllLights(),
+      Row(Pass::UnservedTiles, "unserved tiles", "passes/unservedTiles.frag")
+          .reads({R::Unserved})
+          .writes({R::UnservedTiles})
+          .sameForAllLights(),
       Row(Pass::FixupAlongRow, "fix-up", "passes/march.frag", S::ImageOfMarch)
           .reads({R::SceneDepth, R::SliceTable, R::SampleEnds})
           .walksRows()
@@ -247,7 +266,7 @@ std::vector<PassRow> makeRows() {
           .walksTexels()
           .into(Into::Destination)
           .joins(kSumOfLights),
-      Row(Pass::FixupOwnLine, "fix-up", "passes/fixup.frag")
+      Row(Pass::FixupOwnLine, "fix-up", "passes/fixup.frag", S::Image)
           .reads({R::SceneDepth, R::SliceTable, {R::PairTree, "rowTree"}})
           .walksOwnLine()
           .into(Into::Destination)
@@ -294,6 +313,12 @@ std::vector<PassRow> makeRows() {
           .readsIfThere({R::LastDepth, R::MovedSlices})
           .writes({R::ChangedTiles})
           .sameForAllLights(),
+      Row(Pass::ChangedPixels, "changed pixels", "passes/changedPixels.frag")
+          .reads({R::SceneDepth, R::SliceTable, R::SampleEnds, R::ChangedSegments, R::ChangedSlices})
+          .readsIfThere({R::LastDepth, R::MovedSlices})
+          .into(Into::Destination)
+          .joins(kSumOfLights)
+          .sameForAllLights(),
       Row(Pass::DebugSlices, "debug view", "passes/debugSlices.frag")
           .reads({R::SliceTable})
           .into(Into::DebugView)
@@ -303,16 +328,14 @@ std::vector<PassRow> makeRows() {
           .into(Into::DebugView)
           .joins(Joining::AddAll)
           .sameForAllLights(),
-      Row(Pass::DebugFixup, "debug view", "passes/debugFixup.frag", S::Image).into(Into::DebugView).sameForAllLights(),
+      Row(Pass::DebugFixup, "debug view", "passes/red.frag", S::Image).into(Into::DebugView).sameForAllLights(),
       Row(Pass::DebugVisitsOfLight, "debug view", "passes/pixelTree.frag", S::Image)
           .reads({R::SceneDepth, R::SliceTable})
           .walksRows()
           .into(Into::DebugView)
           .joins(Joining::AddAll)
           .options({{"COUNT_VISITS", {1}}}),
-      Row(Pass::DebugRedrawn, "debug view", "passes/debugFixup.frag", S::Image)
-          .into(Into::DebugView)
-          .sameForAllLights(),
+      Row(Pass::DebugRedrawn, "debug view", "passes/red.frag", S::Image).into(Into::DebugView).sameForAllLights(),
       Row(Pass::DebugRowMeans, "debug mean", "passes/debugMean.frag")
           .reads({R::Image})
           .writes({R::DebugRowMeans})

@@ -15,6 +15,8 @@ enum class Pass {
   Exact,
   Transmittance,
   Composite,
+  CopyColour,
+  CompositeOfCopy,
   CopyToOutput,
   // A light's rows and slices (passes/Epipolar.cpp has the picture).
   SampleEnds,
@@ -39,6 +41,8 @@ enum class Pass {
   MarchExtra,
   Interpolate,
   Unwarp,
+  Unserved,
+  UnservedTiles,
   FixupAlongRow,
   FixupAllTexels,
   FixupOwnLine,
@@ -53,6 +57,7 @@ enum class Pass {
   ChangedSegments,
   ChangedSlices,
   ChangedTiles,
+  ChangedPixels,
   // Debug views.
   DebugSlices,
   DebugSamples,
@@ -155,7 +160,8 @@ gl::Variant variantOf(Pass pass, const LightVariant& light, const gl::Definition
 /// Vertices of its vertex shader from which on it draws a pass whole, or what has changed of it.
 int firstVertexOf(Pass pass, bool changes);
 
-/// Every program that a plan may ask for, and some that are the same (gl::mentioned).
-std::vector<gl::Variant> allVariants();
+/// Every program that a plan may ask for in a context with dual-source blending, or without, and some that are the same
+/// (gl::mentioned).
+std::vector<gl::Variant> allVariants(bool dualSource = true);
 
 } // namespace tyndall

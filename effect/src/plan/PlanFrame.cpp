@@ -41,8 +41,9 @@ bool sumIsCapped(const Frame& frame, float most, std::size_t lights) {
 }
 
 // The shader variant of a light.
-LightVariant variantOf(const Frame& frame, const Light& light, bool direct) {
+LightVariant variantOf(const Frame& frame, const Light& light, bool dualSource, bool direct) {
   LightVariant variant;
+  variant.dualSource = dualSource;
   variant.monochrome = optics::isMonochrome(frame.medium);
   variant.composite = direct;
   variant.lightKind = static_cast<int>(light.kind);
@@ -65,12 +66,14 @@ float partOf(float most, std::size_t lights) { return most / static_cast<float>(
 
 FramePlanner::FramePlanner(const PlanInputs& inputs, Allocator& allocator, PlannedFrame& out)
     : in_(inputs), frame_(inputs.frame), allocator_(allocator), out_(out),
-      passes_(allocator, out.plan, inputs.targets) {
+      passes_(allocator, out.plan, inputs.targets, inputs.tuning) {
   passes_.extent.width = frame_.width;
   passes_.extent.height = frame_.height;
-  passes_.paths.depthSamples = in_.textures.depthSamples;
-  passes_.paces = in_.paces;
-  out.plan.bandMilliseconds = in_.tuning.bandMilliseconds;
+  passes_.extent.wideColour = inputs.textures.colourMax >= kLargestFloat;
+  passes_.variant.dualSource = inputs.tuning.compositing == Compositing::DualSource;
+  passes_.paths.depthSamples = inputs.textures.depthSamples;
+  passes_.paces = inputs.paces;
+  out.plan.bandMilliseconds = inputs.tuning.bandMilliseconds;
   passes_.board[frame_.depth.multisampled ? Resource::SceneDepthSamples : Resource::SceneDepth] = frame_.depth.texture;
 }
 
@@ -95,7 +98,7 @@ void FramePlanner::planInFull() {
   planLights(frame_, passes_.destination, lightsToDraw(frame_, passes_.destination));
   if (passes_.destination.copies) copyToOutput(passes_.destination.inscatter, output.inscatter);
   if (!passes_.destination.composite) return;
-  if (frame_.settings.debugView == DebugView::Redrawn) showRedrawn(Redraw::All, 0);
+  if (frame_.settings.debugView == DebugView::Redrawn) showRedrawn(Redraw::All, {});
   planPicture();
 }
 
@@ -113,7 +116,9 @@ Destination FramePlanner::chooseDestination(bool changes) {
   to.ceiling = partOf(most, lights);
   const bool spreads = frame_.settings.technique == Technique::Epipolar &&
                        std::isfinite(frame_.settings.spreadThreshold); // several times the time: no programs for it
-  if (output.inscatter == 0 && output.transmittance == 0 && !hasDebugView(frame_) && !apart && !spreads) return to;
+  const bool blends = passes_.variant.dualSource;
+  if (output.inscatter == 0 && output.transmittance == 0 && !hasDebugView(frame_) && !apart && !spreads && blends)
+    return to;
   to.inscatter = apart ? 0 : output.inscatter;
   to.transmittance = output.transmittance;
   to.composite = hasDebugView(frame_) || (changes && frame_.colour != 0);
@@ -147,7 +152,7 @@ std::vector<DrawnLight> FramePlanner::lightsToDraw(const Frame& frame, const Des
     if (drawn[i])
       lights.push_back({i, nameOf(frame, i), settings[i],
                         optics::lightBlock(frame, frame.lights[i], map.width, map.height, map.curvesSize),
-                        variantOf(frame, frame.lights[i], direct)});
+                        variantOf(frame, frame.lights[i], passes_.variant.dualSource, direct)});
   }
   return lights;
 }
@@ -182,7 +187,7 @@ void FramePlanner::planPicture() {
   Board& board = passes_.board;
   board[Resource::Inscatter] = from.inscatter;
   board[Resource::Transmittance] = from.transmittance;
-  if (!hasDebugView(frame_)) return passes_.draw(Pass::Composite);
+  if (!hasDebugView(frame_)) return planComposite();
   board[Resource::Image] = view == DebugView::Transmittance                    ? from.transmittance
                            : showsSlices(frame_) || view == DebugView::Redrawn ? board[Resource::DebugView]
                                                                                : from.inscatter;
@@ -197,6 +202,13 @@ void FramePlanner::planPicture() {
   } else {
     passes_.draw(Pass::DebugImage);
   }
+}
+
+void FramePlanner::planComposite() {
+  if (passes_.variant.dualSource) return passes_.draw(Pass::Composite);
+  passes_.board[Resource::Image] = frame_.colour;
+  passes_.draw(Pass::CopyColour);
+  passes_.draw(Pass::CompositeOfCopy);
 }
 
 // Exact's inscatter, and its mean.
@@ -223,13 +235,10 @@ void FramePlanner::copyToOutput(gl::Uint from, gl::Uint output) {
   passes_.draw(Pass::CopyToOutput, options);
 }
 
-// What a frame with Frame::reuse drew: all, or its tiles.
-void FramePlanner::showRedrawn(Redraw picture, gl::Uint tiles) {
+// What a frame with Frame::reuse drew: all, or what its mask holds.
+void FramePlanner::showRedrawn(Redraw picture, const Mask& mask) {
   passes_.clear(Resource::DebugView, picture == Redraw::All ? 1 : 0);
-  if (picture != Redraw::Part) return;
-  passes_.drawnTiles = tiles;
-  passes_.draw(Pass::DebugRedrawn);
-  passes_.drawnTiles = 0;
+  if (picture == Redraw::Part) drawMasked(Pass::DebugRedrawn, mask);
 }
 
 } // namespace tyndall

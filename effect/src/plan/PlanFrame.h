@@ -46,8 +46,16 @@ public:
 private:
   void planInFull();
   void planReused(const std::vector<DrawnLight>& drawn, RedrawPlan redraw);
-  gl::Uint planParts(const std::vector<DrawnLight>& drawn, RedrawPlan& redraw, KeptNext& next);
-  gl::Uint planTiles(const std::vector<std::unique_ptr<LightPlanner>>& lights, const RedrawPlan& redraw);
+  using Lights = std::vector<std::unique_ptr<LightPlanner>>;
+  /// Of the picture: the pixels that are drawn anew, in tiles or as the stencil has them; neither: all.
+  struct Mask {
+    gl::Uint tiles = 0;
+    bool stencil = false;
+  };
+  Mask planParts(const std::vector<DrawnLight>& drawn, RedrawPlan& redraw, KeptNext& next);
+  Mask planMask(const Lights& lights, const RedrawPlan& redraw);
+  static void use(const Mask& mask, PassPlanner& passes);
+  void drawMasked(Pass pass, const Mask& mask);
   FrameKey keyOf(const std::vector<DrawnLight>& drawn) const;
   Destination chooseDestination(bool changesColour);
   Destination keptDestination() const;
@@ -55,9 +63,10 @@ private:
   std::vector<DrawnLight> lightsToDraw(const Frame& frame, const Destination& destination);
   void planLights(const Frame& frame, const Destination& destination, const std::vector<DrawnLight>& lights);
   void planPicture();
+  void planComposite();
   void planDifference();
   void planMean(gl::Uint image);
-  void showRedrawn(Redraw picture, gl::Uint tiles);
+  void showRedrawn(Redraw picture, const Mask& mask);
   void copyToOutput(gl::Uint from, gl::Uint output);
 
   const PlanInputs& in_;

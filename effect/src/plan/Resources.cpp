@@ -12,12 +12,14 @@ namespace {
 using E = const Extent&;
 using Format = TexelFormat;
 
-constexpr Format kGiven{}, kR32{gl::R32F, gl::RED, 4}, kRg32{gl::RG32F, gl::RG, 8}, kRgba32{gl::RGBA32F, gl::RGBA, 16},
-    kRgba16{gl::RGBA16F, gl::RGBA, 8}, kUnorm2{gl::RG16, gl::RG, 4}, kUnorm4{gl::RGBA16, gl::RGBA, 8};
+constexpr Format kGiven{}, kR8{gl::R8, gl::RED, 1}, kR32{gl::R32F, gl::RED, 4}, kRg32{gl::RG32F, gl::RG, 8},
+    kRgba32{gl::RGBA32F, gl::RGBA, 16}, kRgba16{gl::RGBA16F, gl::RGBA, 8}, kUnorm2{gl::RG16, gl::RG, 4},
+    kUnorm4{gl::RGBA16, gl::RGBA, 8};
 
 constexpr int kPartTexels = 256, kChunk = 64;
 
 bool always(E) { return true; }
+bool wideColour(E e) { return e.wideColour; }
 bool coloured(E e) { return e.coloured; }
 bool floatRows(E e) { return e.floatRows; }
 bool glass(E e) { return e.glass; }
@@ -90,6 +92,8 @@ constexpr ResourceRow kRows[] = {
      "where the engine wants its own transmittance and a composite"},
     {"transmittance", kRgba32, kRgba32, always, always, image, image, Lifetime::Eye,
      "where the engine wants its own inscatter and a composite"},
+    {"colour copy", kRgba32, kRgba16, wideColour, always, image, image, Lifetime::Frame,
+     "what the composite blends with, where not by dual-source blending"},
     {"slice table", kRgba32, kRgba32, always, always, table, table, Lifetime::Light,
      "the slices' geometry, computed in double"},
     {"sample ends", kR32, kR32, always, always, samples, samples, Lifetime::Compared,
@@ -109,6 +113,8 @@ constexpr ResourceRow kRows[] = {
     {"extra blue", kRgba16, kRgba16, always, coloured, fours, fours, Lifetime::Frame, "the same in blue"},
     {"epipolar inscatter", kRgba16, kRg32, coloured, always, samples, samples, Lifetime::Light,
      "the same of all samples, with their distance"},
+    {"unserved", kR8, kR8, always, always, image, image, Lifetime::Frame, "fix-up by tiles: pixels that unwarp left"},
+    {"unserved tiles", kR32, kR32, always, always, tiles, tiles, Lifetime::Frame, "the same: tiles that hold one"},
     {"row depths", kRgba32, kUnorm4, floatRows, always, groups, drawnGroups, Lifetime::ComparedRows,
      "the shadow map along each slice"},
     {"row shares", kUnorm4, kUnorm2, glass, shares, groups, drawnGroups, Lifetime::ComparedRows,

@@ -23,6 +23,7 @@ enum class Resource {
   Empty,
   Inscatter,
   Transmittance,
+  ColourCopy,
   SliceTable,
   SampleEnds,
   Marks,
@@ -35,6 +36,8 @@ enum class Resource {
   ExtraGreen,
   ExtraBlue,
   EpipolarInscatter,
+  Unserved,
+  UnservedTiles,
   RowDepths,
   RowShares,
   RowNodes,
@@ -82,6 +85,7 @@ struct Extent {
   int curveCells = 0;             ///< texels per side of the map of Light::curves
   int terms = 0, lowRankSets = 0; ///< Technique::LowRank
   int tintLevel = 0;              ///< of the sums of tints: 0 is the finest
+  bool wideColour = true;         ///< the engine's colour is one of 32-bit floats
   bool coloured = true;           ///< three channels of radiance
   bool floatRows = true;          ///< depths of rows in 32 bits, not in 16
   bool glass = false;

@@ -12,8 +12,9 @@
 //   for each light:   depth, maps --> [changed ...], of the slices that objects reach or of all --> changed segments
 //   and slices
 //                     --> the passes of Epipolar.cpp, up to [interpolate], over those
-//   for each light:   changed segments, scene depth, last depth --> [tiles] --> changed tiles
-//   for each light:   epipolar inscatter --> [unwarp], fix-up, over those tiles --> inscatter, transmittance
+//   for each light:   changed segments, scene depth, last depth --> [tiles] --> changed tiles, or [changed pixels] -->
+//                     stencil (Tuning::reuse)
+//   for each light:   epipolar inscatter --> [unwarp], fix-up, over those --> inscatter, transmittance
 //   inscatter, transmittance --> [composite] --> colour
 //
 // A frame in which nothing has changed has the last step only; one in which everything has is drawn in full, and after
@@ -75,12 +76,12 @@ void FramePlanner::planReused(const std::vector<DrawnLight>& drawn, RedrawPlan r
   to.transmittance = passes_.textureOf(Resource::Transmittance);
   KeptNext next{{redraw.key, depthOf(frame_), frame_.reuse.frame, eye.last && eye.last->hasDepth}, {}, {}};
   Redraw picture = redraw.picture;
-  gl::Uint tiles = 0;
+  Mask mask;
   if (picture == Redraw::Nothing) {
     out_.plan.skip("lights", "nothing has changed: the last frame's picture is shown");
     next.count.segments = 1;
   } else if (drawsInParts(frame_) && !drawn.empty()) {
-    tiles = planParts(drawn, redraw, next);
+    mask = planParts(drawn, redraw, next);
     picture = redraw.picture;
   } else {
     planLights(frame_, to, drawn);
@@ -93,14 +94,14 @@ void FramePlanner::planReused(const std::vector<DrawnLight>& drawn, RedrawPlan r
   copyToOutput(to.inscatter, frame_.output.inscatter);
   copyToOutput(to.transmittance, frame_.output.transmittance);
   if (!to.composite) return;
-  if (frame_.settings.debugView == DebugView::Redrawn) showRedrawn(picture, tiles);
+  if (frame_.settings.debugView == DebugView::Redrawn) showRedrawn(picture, mask);
   planPicture();
 }
 
-// Of the lights' slices and of the picture what has changed; the tiles of the picture, 0 if it is drawn whole.
-gl::Uint FramePlanner::planParts(const std::vector<DrawnLight>& drawn, RedrawPlan& redraw, KeptNext& next) {
+// Of the lights' slices and of the picture what has changed, which the mask holds.
+FramePlanner::Mask FramePlanner::planParts(const std::vector<DrawnLight>& drawn, RedrawPlan& redraw, KeptNext& next) {
   reuse::Redrawing redrawing{in_.limits, *in_.eye, in_.counts, {}};
-  std::vector<std::unique_ptr<LightPlanner>> lights;
+  Lights lights;
   Frame lit = frame_;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     lit.settings = drawn[i].settings;
@@ -110,32 +111,44 @@ gl::Uint FramePlanner::planParts(const std::vector<DrawnLight>& drawn, RedrawPla
     next.lights.emplace_back(drawn[i].index, reuse::keptOf(*lights.back(), redraw.lights[i]));
   }
   if (isWhole(redraw)) redraw.picture = Redraw::All; // a light may have turned out not to be kept
-  const gl::Uint tiles = redraw.picture == Redraw::Part ? planTiles(lights, redraw) : 0;
+  const Mask mask = redraw.picture == Redraw::Part ? planMask(lights, redraw) : Mask{};
   if (redraw.picture == Redraw::All || redraw.lights.front().comparesEnds) {
-    passes_.drawnTiles = tiles;
-    passes_.draw(Pass::KeepDepth);
-    passes_.drawnTiles = 0;
+    drawMasked(Pass::KeepDepth, mask);
     next.picture.hasDepth = true;
   }
   for (const auto& light : lights) {
-    light->drawnTiles = tiles;
+    use(mask, *light);
     passes::unwarp::plan(*light);
   }
   next.count = std::move(redrawing.count);
-  return tiles;
+  return mask;
 }
 
-gl::Uint FramePlanner::planTiles(const std::vector<std::unique_ptr<LightPlanner>>& lights, const RedrawPlan& redraw) {
+void FramePlanner::use(const Mask& mask, PassPlanner& passes) {
+  passes.drawnTiles = mask.tiles;
+  passes.drawsMarked = mask.stencil;
+}
+
+void FramePlanner::drawMasked(Pass pass, const Mask& mask) {
+  use(mask, passes_);
+  passes_.draw(pass);
+  use({}, passes_);
+}
+
+FramePlanner::Mask FramePlanner::planMask(const Lights& lights, const RedrawPlan& redraw) {
   const bool comparesDepth = redraw.lights.front().comparesEnds;
-  gl::Uint tiles = 0;
+  Mask mask;
+  bool begins = true;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (redraw.lights[i].redraw == Redraw::Nothing) continue;
     const bool compares = comparesDepth && i == 0;
     if (compares) lights[i]->board[Resource::LastDepth] = passes_.textureOf(Resource::LastDepth);
-    reuse::planTiles(*lights[i], compares, tiles == 0);
-    tiles = lights[i]->board[Resource::ChangedTiles];
+    reuse::planMask(*lights[i], compares, begins);
+    mask.stencil = in_.tuning.reuse == Masking::Stencil;
+    if (!mask.stencil) mask.tiles = lights[i]->board[Resource::ChangedTiles];
+    begins = false;
   }
-  return tiles;
+  return mask;
 }
 
 void FramePlanner::planRedrawn(bool comparesEnds, bool comparesRows) {

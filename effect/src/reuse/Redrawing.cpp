@@ -151,12 +151,18 @@ KeptSlices keptOf(const LightPlanner& light, const LightRedraw& redraw) {
           light.block, light.viewsPerDraw, light.endsSide, light.rowsSide};
 }
 
-void planTiles(LightPlanner& light, bool comparesDepth, bool clears) {
+void planMask(LightPlanner& light, bool comparesDepth, bool begins) {
   DrawOptions options;
   light.block.comparesDepth = comparesDepth ? 1 : 0;
   light.block.comparesSome = light.board[R::MovedSlices] ? 1 : 0;
-  if (clears) options.clearTo = 0;
   light.selectDraw(0);
+  if (light.tuning.reuse == Masking::Stencil) {
+    if (begins) light.clearStencil();
+    options.stencil = kMarkChanged;
+    options.adds = true;
+    return light.draw(Pass::ChangedPixels, options);
+  }
+  if (begins) options.clearTo = 0;
   light.draw(Pass::ChangedTiles, options);
 }
 

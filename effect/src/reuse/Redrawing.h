@@ -1,5 +1,5 @@
 // Draws what has changed of slices, rows and pixels since the last frame (Frame::reuse; glsl/passes/changedEnds,
-// changedParts, changedSegments, changedSlices, changedStrips, changedTiles, tiles).
+// changedParts, changedSegments, changedSlices, changedStrips, changedTiles, tiles, changedPixels).
 #pragma once
 
 #include "plan/LightPlanner.h"
@@ -22,7 +22,8 @@ void planSlices(LightPlanner& light, LightRedraw& redraw, Redrawing& frame);
 /// What the next frame needs of it.
 KeptSlices keptOf(const LightPlanner& light, const LightRedraw& redraw);
 
-/// Flags of the tiles that the changed segments of the light touch, and, compared by one of the lights, the depth.
-void planTiles(LightPlanner& light, bool comparesDepth, bool clears);
+/// Flags of the tiles, or bits of the stencil's pixels (Tuning::reuse), that the changed segments of the light touch,
+/// and, compared by one of the lights, the depth. `begins`: there are none yet.
+void planMask(LightPlanner& light, bool comparesDepth, bool begins);
 
 } // namespace tyndall::reuse

@@ -91,10 +91,10 @@ TEST_CASE("an engine's pending error stays: frames of every kind, and their pict
     if (!tests::canDraw(item)) continue;
     context.setMaxTextureSize(item.maxTextureSize);
     Stage stage(item);
-    const std::unique_ptr<Effect> effect = newEffect({context.loader()});
+    const std::unique_ptr<Effect> effect = newEffect(tests::configFor(item, context.loader()));
     const tests::TargetContents expected = stage.draw(*effect);
     checkStays(item.name, [&] {
-      const std::unique_ptr<Effect> fresh = newEffect({context.loader()});
+      const std::unique_ptr<Effect> fresh = newEffect(tests::configFor(item, context.loader()));
       stage.fill();
       require(fresh->render(stage.frame()));
       CHECK(tests::bitEqual(stage.read(), expected));
@@ -122,7 +122,8 @@ TEST_CASE("an engine's pending error hides no allocation that fails") {
   FaultyContext context;
   for (const char* name :
        {"epipolar", "epipolar, two lights", "tree, two lights, all targets", "exact, lamp, all targets", "low rank",
-        "view 9", "detect, first frame", "detect, a part", "objects, a part"}) {
+        "view 9", "detect, first frame", "detect, a part", "objects, a part",
+        "detect, two lights, by the stencil, fix-up by tiles", "epipolar, colour copied"}) {
     const tests::FrameCase& item = tests::frameCase(name);
     tests::FaultSweep sweep(context, item);
     for (const Fault kind : {Fault::Texture, Fault::Renderbuffer, Fault::Buffer, Fault::Framebuffer})

@@ -57,10 +57,10 @@ FaultSweep::FaultSweep(FaultyContext& context, const FrameCase& item)
   context_.setMaxTextureSize(case_.maxTextureSize);
   stage_.fill();
   before_ = stage_.read();
-  const std::unique_ptr<Effect> effect = newEffect({context_.loader()});
+  const std::unique_ptr<Effect> effect = newEffect(configFor(case_, context_.loader()));
   drawEarlier(*effect);
   continued_ = stage_.draw(*effect);
-  full_ = stage_.draw(*newEffect({context_.loader()}));
+  full_ = stage_.draw(*newEffect(configFor(case_, context_.loader())));
 }
 
 Findings FaultSweep::run(const SweepOptions& options) {
@@ -84,7 +84,7 @@ bool FaultSweep::isExpected(const TargetContents& drawn) const {
 }
 
 bool FaultSweep::runOnce(const SweepOptions& options, int call, Findings& findings) {
-  const std::unique_ptr<Effect> effect = newEffect({context_.loader()});
+  const std::unique_ptr<Effect> effect = newEffect(configFor(case_, context_.loader()));
   if (options.used) other_.draw(*effect);
   stage_.rewind();
   drawEarlier(*effect);

@@ -154,6 +154,33 @@ void addReuse(std::vector<FrameCase>& all) {
   }
 }
 
+// The masks and the composite that are not the table's in software, and all of one kind.
+void addTunings(std::vector<FrameCase>& all) {
+  const auto add = [&all](const std::string& name, const FrameCase& like, const Tuning& tuning) {
+    all.push_back(like);
+    all.back().name = name;
+    all.back().tuning = tuning;
+  };
+  const FrameCase part = reusing({}, Changes::Detect, 1, Motion::Box);
+  FrameCase lights = part, redrawn = part, spread = make({}, Technique::Epipolar, kColour, {kSun, kSpot});
+  lights.lights = {kSun, kSpot};
+  redrawn.view = DebugView::Redrawn;
+  spread.spread = true;
+  const auto stencil = Masking::Stencil, tiles = Masking::Tiles;
+  add("detect, by the stencil", part, {stencil, stencil});
+  add("detect, two lights, by the stencil, fix-up by tiles", lights, {stencil, tiles});
+  add("detect, two lights, by tiles", lights, {tiles, tiles});
+  add("detect, redrawn, by the stencil", redrawn, {stencil, stencil});
+  add("objects, by the stencil", reusing({}, Changes::Objects, 1, Motion::Box), {stencil, stencil});
+  add("epipolar, fix-up by tiles", make({}, Technique::Epipolar), {{}, tiles});
+  add("epipolar, spread, fix-up by tiles", spread, {{}, tiles});
+  add("epipolar, colour copied", make({}, Technique::Epipolar), {{}, {}, Compositing::Copy});
+  add("exact, two lights, colour copied", make({}, Technique::Exact, kColour, {kSun, kSpot}),
+      {{}, {}, Compositing::Copy});
+  add("low rank, colour copied", make({}, Technique::LowRank), {{}, {}, Compositing::Copy});
+  add("detect, colour copied", part, {{}, {}, Compositing::Copy});
+}
+
 // Curves of one veil over the middle of a map, made once.
 AvsmCurves veil() {
   static AvsmRig rig(configOf(CurveReduction::Sorted, 16, 4, true));
@@ -196,6 +223,7 @@ const std::vector<FrameCase>& frameCases() {
     addInputs(list);
     addViews(list);
     addReuse(list);
+    addTunings(list);
     return list;
   }();
   return all;
@@ -206,6 +234,10 @@ const FrameCase& frameCase(std::string_view name) {
       std::find_if(frameCases().begin(), frameCases().end(), [&](const FrameCase& c) { return c.name == name; });
   REQUIRE(found != frameCases().end());
   return *found;
+}
+
+Config configFor(const FrameCase& frameCase, GlLoader loader, PassTiming timing) {
+  return {loader, timing, {}, StateMode::Restore, frameCase.tuning};
 }
 
 bool canDraw(const FrameCase& frameCase) { return !frameCase.curves || testContext().glVersion() >= 43; }

@@ -30,6 +30,7 @@ struct FrameCase {
   Motion motion = Motion::None;
   int before = 0; ///< frames of the view that were drawn before the one that is looked at
   int refreshFrames = 0;
+  tyndall::Tuning tuning = {};
   int maxTextureSize = 0; ///< of a FaultyContext: so little that a lamp's faces are marched one after the other
 };
 
@@ -38,6 +39,10 @@ const std::vector<FrameCase>& frameCases();
 
 /// The one of that name.
 const FrameCase& frameCase(std::string_view name);
+
+/// Of an effect that draws it, with the case's tuning.
+tyndall::Config configFor(const FrameCase& frameCase, tyndall::GlLoader loader,
+                          tyndall::PassTiming timing = tyndall::PassTiming::Off);
 
 /// True if the context can draw it: curves need OpenGL 4.3.
 bool canDraw(const FrameCase& frameCase);

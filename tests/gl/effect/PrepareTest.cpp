@@ -61,7 +61,7 @@ TEST_CASE("prepare: frames like the one that was prepared compile nothing, in ev
     context.setMaxTextureSize(item.maxTextureSize);
     CAPTURE(item.name);
     Stage stage(item);
-    const std::unique_ptr<Effect> effect = newEffect({context.loader()});
+    const std::unique_ptr<Effect> effect = newEffect(tests::configFor(item, context.loader()));
     context.resetCounts();
     prepareAll(*effect, stage.frame());
     CHECK(context.counts().links > 0);
@@ -83,7 +83,7 @@ TEST_CASE("prepare draws nothing, and changes neither state nor targets") {
     context.setMaxTextureSize(item.maxTextureSize);
     CAPTURE(item.name);
     Stage stage(item);
-    const std::unique_ptr<Effect> effect = newEffect({context.loader()});
+    const std::unique_ptr<Effect> effect = newEffect(tests::configFor(item, context.loader()));
     stage.fill();
     const tests::TargetContents before = stage.read();
     PrepareStatus prepared;

@@ -59,12 +59,12 @@ Light sunOverhead() {
 }
 
 // What DebugView::Redrawn shows of the frame, which is drawn: true for red.
-std::vector<bool> maskOf(tests::ShaftRig& rig) {
+std::vector<bool> maskOf(tests::ShaftRig& rig, Effect& effect = tests::testEffect()) {
   Frame& frame = rig.scene.frame;
   const auto pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
   const host::GlTexture colour = rig.scene.makeColour(GL_RGBA32F, std::vector<float>(4 * pixels, 0.25F));
   frame.settings.debugView = DebugView::Redrawn;
-  rig.scene.render();
+  rig.scene.render(effect);
   const std::vector<float> rgba = host::readColour(colour.name(), frame.width, frame.height);
   frame.settings.debugView = DebugView::Composite;
   frame.colour = 0;
@@ -86,6 +86,16 @@ std::vector<bool> shrunk(const std::vector<bool>& mask, int width, int height, i
   return result;
 }
 
+bool isWithin(const std::vector<bool>& inner, const std::vector<bool>& outer) {
+  for (std::size_t i = 0; i < inner.size(); ++i)
+    if (inner[i] && !outer[i]) return false;
+  return true;
+}
+
+std::unique_ptr<Effect> withMask(Masking masking) {
+  return tests::newEffect({{}, PassTiming::Off, {}, StateMode::Restore, {masking}});
+}
+
 bool covers(const std::vector<bool>& mask, const reference::Image& a, const reference::Image& b) {
   for (int y = 0; y < a.height; ++y)
     for (int x = 0; x < a.width; ++x)
@@ -104,8 +114,10 @@ TEST_CASE("the mask holds every pixel that changes, and without a tile along its
       rig.scene.frame.settings.shadowFilter = filter;
       rig.scene.frame.settings.technique = Technique::Epipolar;
       begin(rig, changes);
+      const std::unique_ptr<Effect> byTiles = withMask(Masking::Tiles), byStencil = withMask(Masking::Stencil);
       reference::Image last;
       bool tight = false;
+      std::ptrdiff_t inTiles = 0, inStencil = 0;
       for (int frame = 0; frame < 16; ++frame) {
         CAPTURE(frame);
         rig.setMoving({radial(frame)});
@@ -113,17 +125,23 @@ TEST_CASE("the mask holds every pixel that changes, and without a tile along its
         rig.scene.frame.objects.clear();
         if (changes == Changes::Objects && frame > 0)
           rig.scene.frame.objects = {between(radial(frame - 1), radial(frame))};
-        const std::vector<bool> mask = maskOf(rig);
+        const std::vector<bool> mask = maskOf(rig, *byTiles), pixels = maskOf(rig, *byStencil);
         const reference::Image now = full(rig).inscatter;
         if (frame == 0) CHECK(std::count(mask.begin(), mask.end(), true) == 96 * 64);
         if (frame > 0) {
           CHECK(covers(mask, now, last));
           // It is made of tiles of 16 pixels.
           tight = tight || !covers(shrunk(mask, 96, 64, 17), now, last);
+          CHECK(covers(pixels, now, last));
+          CHECK(isWithin(pixels, mask));
+          inTiles += std::count(mask.begin(), mask.end(), true);
+          inStencil += std::count(pixels.begin(), pixels.end(), true);
         }
         last = now;
       }
       CHECK(tight);
+      CAPTURE(inTiles, inStencil);
+      CHECK(2 * inStencil < inTiles);
     }
 }
 

@@ -36,7 +36,7 @@ TEST_CASE("no frame waits for the GPU") {
     for (const FrameCase& item : tests::frameCases()) {
       if (!tests::canDraw(item)) continue;
       context.setMaxTextureSize(item.maxTextureSize);
-      const std::unique_ptr<Effect> effect = newEffect({context.loader(), timing});
+      const std::unique_ptr<Effect> effect = newEffect(tests::configFor(item, context.loader(), timing));
       Stage stage(item);
       std::vector<std::string> waits;
       for (int i = 0; i < 5; ++i) {
@@ -60,7 +60,7 @@ TEST_CASE("frames like those before make and delete no GL object") {
     for (const FrameCase& item : tests::frameCases()) {
       if (!tests::canDraw(item)) continue;
       context.setMaxTextureSize(item.maxTextureSize);
-      const std::unique_ptr<Effect> effect = newEffect({context.loader(), timing});
+      const std::unique_ptr<Effect> effect = newEffect(tests::configFor(item, context.loader(), timing));
       Stage stage(item);
       for (int i = 0; i < kWarm + kFrames; ++i) {
         if (i == kWarm) context.resetCounts();

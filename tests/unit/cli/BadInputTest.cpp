@@ -114,6 +114,9 @@ TEST_CASE("tyndall-render takes only whole numbers within their ranges") {
     checkUsageError({"triangle.gltf", "--supersample", count}, {"--supersample: ", count});
   checkUsageError({"triangle.gltf", "--low-rank-terms", "010"}, {"--low-rank-terms: ", "10 not in range"}); // not eight
   checkUsageError({"triangle.gltf", "--size", "4097x10", "--supersample", "4"}, {"--supersample 4"});
+  for (const std::string option : {"--reuse-mask", "--fixup-mask", "--compositing"})
+    for (const std::string name : {"", "Stencil", "1", "none"})
+      checkUsageError({"triangle.gltf", option, name}, {option, name});
   for (const std::string repeat : {"0", "-1", "3x", "10001"})
     checkUsageError({"triangle.gltf", "--repeat", repeat}, {"--repeat: ", repeat});
   for (const std::string milliseconds : {"nan", "-1", "10001", "long"})

@@ -21,8 +21,6 @@ std::vector<int> coverage(const Size& target, const Bands& bands) {
   const Viewport all{3, 5, target.width, target.height};
   std::vector<int> counts(static_cast<std::size_t>(target.width) * static_cast<std::size_t>(target.height), 0);
   forEachBand(all, bands.size, [&](const Viewport& band) {
-    REQUIRE(band.width > 0);
-    REQUIRE(band.height > 0);
     for (int y = band.y; y < band.y + band.height; ++y)
       for (int x = band.x; x < band.x + band.width; ++x)
         ++counts.at(static_cast<std::size_t>(y - all.y) * static_cast<std::size_t>(target.width) +

@@ -1,4 +1,0 @@
-// Debug view of the fix-up: red, where the stencil lets it. Writes debugView: image size, RGBA32F.
-layout(location = 0) out vec4 outColour;
-
-void main() { outColour = vec4(1.0, 0.0, 0.0, 1.0); }
