@@ -43,6 +43,7 @@ Status Effect::State::render(const Frame& given) {
 
 void Effect::State::beginStatistics() {
   recorder.beginFrame();
+  paces.beginFrame();
   visits = 0;
   lastEye.reset();
 }
@@ -51,7 +52,7 @@ Status Effect::State::planFrame(const Frame& frame, const FrameTextures& texture
                                 PlannedFrame& planned) {
   framebuffers.beginFrame();
   Allocator allocator(framebuffers, true);
-  const PlanInputs inputs{frame, textures, limits, tuning, targets, eye, recorder.counts()};
+  const PlanInputs inputs{frame, textures, limits, tuning, targets, eye, recorder.counts(), &paces};
   FramePlanner(inputs, allocator, planned).plan();
   planned.empty = allocator.texture(targets, Resource::Empty, {});
   if (!allocator.status()) return allocator.status();
@@ -64,8 +65,9 @@ void Effect::State::draw(const PlannedFrame& planned, gl::StateGuard& guard) {
   const UnitsUsed units = unitsOf(planned.plan);
   guard.saveUnits(units.count, units.arrays, units.multisampled);
   if (units.stencil) guard.saveStencil();
+  if (units.scissor) guard.saveScissorBox();
   recorder.countMarched(planned.plan.marched);
-  drawPlan(planned.plan, gl, {vertexArray.name(), nearestSampler.name(), planned.empty, blocks}, recorder);
+  drawPlan(planned.plan, gl, {vertexArray.name(), nearestSampler.name(), planned.empty, blocks}, recorder, paces);
   visits = planned.visits;
 }
 
@@ -127,7 +129,7 @@ std::vector<FramePlan> Effect::State::planAhead(const Frame& frame, const FrameT
   const auto plan = [&](const Frame& from, KeptEye* eye, auto&& how, std::optional<bool> sumsApart = {}) {
     Allocator allocator(framebuffers, false);
     PlannedFrame planned;
-    const PlanInputs inputs{from, textures, limits, tuning, targets, eye, false, true, sumsApart};
+    const PlanInputs inputs{from, textures, limits, tuning, targets, eye, false, nullptr, true, sumsApart};
     FramePlanner planner(inputs, allocator, planned);
     how(planner);
     plans.push_back(std::move(planned.plan));

@@ -1,6 +1,7 @@
 // What an effect holds in its context.
 #pragma once
 
+#include "BandPaces.h"
 #include "CheckFrame.h"
 #include "ContextWatch.h"
 #include "ObjectBoxes.h"
@@ -18,7 +19,8 @@ namespace tyndall {
 struct Effect::State {
   explicit State(const Config& config)
       : stateMode(config.state), tuning(config.tuning), watch(gl), programs(gl, config.programs), framebuffers(gl),
-        targets(gl, framebuffers), recorder(gl, config.timing), eyes(gl, framebuffers), objectBoxes(gl), blocks(gl) {}
+        targets(gl, framebuffers), recorder(gl, config.timing), paces(gl), eyes(gl, framebuffers), objectBoxes(gl),
+        blocks(gl) {}
 
   StateMode stateMode;
   Tuning tuning; ///< nothing is left to choose once the objects are made
@@ -29,6 +31,7 @@ struct Effect::State {
   Framebuffers framebuffers;
   Targets targets;
   PassRecorder recorder;
+  BandPaces paces;
   KeptEyes eyes;
   ObjectBoxes objectBoxes;
   gl::VertexArray vertexArray;

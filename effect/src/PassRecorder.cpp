@@ -1,6 +1,7 @@
 #include "PassRecorder.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tyndall {
 
@@ -38,15 +39,13 @@ gl::Uint PassRecorder::nextQuery(Pool& pool) {
 }
 
 void PassRecorder::begin(const std::string& name, const Counting& counting) {
-  passes_.push_back({{name, {}, 0}});
+  passes_.push_back({{name, {}, 0, 1}});
   if (gl_.debugOutput) gl_.PushDebugGroup(gl::DEBUG_SOURCE_THIRD_PARTY, 0, -1, ("Tyndall: " + name).c_str());
   if (timing_ == PassTiming::Finish) {
     gl_.Finish();
     start_ = std::chrono::steady_clock::now();
   } else if (timing_ == PassTiming::TimerQuery) {
-    passes_.back().from = nextQuery(pools().times);
-    passes_.back().to = nextQuery(pools().times);
-    gl_.QueryCounter(passes_.back().from, gl::TIMESTAMP);
+    stamp();
   }
   if (!counts_ || counting.what == Count::None) return;
   const gl::Uint query = counting.what == Count::Into ? counting.query->name() : nextQuery(pools().counts);
@@ -56,14 +55,32 @@ void PassRecorder::begin(const std::string& name, const Counting& counting) {
 
 void PassRecorder::end(const Counting& counting) {
   if (counts_ && counting.what != Count::None) gl_.EndQuery(gl::SAMPLES_PASSED);
-  if (timing_ == PassTiming::Finish) {
-    gl_.Finish();
-    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start_;
-    passes_.back().statistics.milliseconds = time.count();
-  } else if (timing_ == PassTiming::TimerQuery) {
-    gl_.QueryCounter(passes_.back().to, gl::TIMESTAMP);
-  }
+  endBand();
   if (gl_.debugOutput) gl_.PopDebugGroup();
+}
+
+void PassRecorder::nextBand() {
+  endBand();
+  ++passes_.back().statistics.bands;
+}
+
+void PassRecorder::endBand() {
+  if (timing_ == PassTiming::TimerQuery) stamp();
+  if (timing_ != PassTiming::Finish) return;
+  gl_.Finish();
+  const auto now = std::chrono::steady_clock::now();
+  const std::chrono::duration<double, std::milli> time = now - std::exchange(start_, now);
+  passes_.back().add(time.count());
+}
+
+void PassRecorder::stamp() {
+  passes_.back().stamps.push_back(nextQuery(pools().times));
+  gl_.QueryCounter(passes_.back().stamps.back(), gl::TIMESTAMP);
+}
+
+void PassRecorder::Timed::add(double band) {
+  statistics.milliseconds += band;
+  statistics.longestBand = std::max(statistics.longestBand, band);
 }
 
 std::uint64_t PassRecorder::resultOf(gl::Uint query) const {
@@ -96,10 +113,9 @@ std::uint64_t PassRecorder::marched() {
 std::vector<PassStatistics> PassRecorder::collect() {
   std::vector<PassStatistics> result;
   for (Timed& pass : passes_) {
-    if (pass.from != 0) {
-      const std::uint64_t from = resultOf(std::exchange(pass.from, 0)), to = resultOf(pass.to);
-      pass.statistics.milliseconds = static_cast<double>(to - from) * 1e-6;
-    }
+    for (std::size_t i = 1; i < pass.stamps.size(); ++i)
+      pass.add(static_cast<double>(resultOf(pass.stamps[i]) - resultOf(pass.stamps[i - 1])) * 1e-6);
+    pass.stamps.clear();
     result.push_back(pass.statistics);
   }
   return result;

@@ -48,6 +48,9 @@ public:
     return ok;
   }
 
+  /// Between two bands of the pass that runs, each of which is timed by itself, too.
+  void nextBand();
+
   /// Of the frame; wait for its queries.
   std::uint64_t fixupPixels();
   std::uint64_t marched();
@@ -57,7 +60,8 @@ public:
 private:
   struct Timed {
     PassStatistics statistics;
-    gl::Uint from = 0, to = 0; // queries
+    std::vector<gl::Uint> stamps{}; // queries, one more than bands
+    void add(double band);          // milliseconds
   };
   struct Counted {
     Counting counting;
@@ -74,6 +78,8 @@ private:
 
   void begin(const std::string& name, const Counting& counting);
   void end(const Counting& counting);
+  void endBand();
+  void stamp();
   gl::Uint nextQuery(Pool& pool);
   Pools& pools() { return pools_[frame_ % pools_.size()]; }
   std::uint64_t resultOf(gl::Uint query) const;

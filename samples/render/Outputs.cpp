@@ -40,11 +40,13 @@ host::Image imageOf(const Picture& picture, int width, int height) {
 
 nlohmann::ordered_json passesOf(const std::vector<tyndall::PassStatistics>& statistics) {
   nlohmann::ordered_json passes = nlohmann::ordered_json::array();
-  for (const tyndall::PassStatistics& pass : statistics)
+  for (const tyndall::PassStatistics& pass : statistics) {
     if (pass.skipped.empty())
       passes.push_back({{"name", pass.name}, {"ms", pass.milliseconds}});
     else
       passes.push_back({{"name", pass.name}, {"skipped", pass.skipped}});
+    if (pass.bands > 1) passes.back().update({{"bands", pass.bands}, {"longest_ms", pass.longestBand}});
+  }
   return passes;
 }
 

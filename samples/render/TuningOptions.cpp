@@ -21,6 +21,10 @@ void addTuning(CLI::App& app, tyndall::Tuning& tuning) {
                                        "what keeps the fix-up to the pixels that no sample serves (default auto)"));
   chooseFrom(kCompositings, app.add_option("--compositing", tuning.compositing,
                                            "how light is blended into the colour (default auto)"));
+  app.add_option("--band-ms", tuning.bandMilliseconds,
+                 "draw in bands what may take the GPU longer, at once, than so many milliseconds; 0: nothing (default "
+                 "100, of a software rasteriser 0)")
+      ->check(CLI::Range(0.0, 10000.0));
 }
 
 } // namespace render

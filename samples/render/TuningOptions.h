@@ -6,7 +6,7 @@
 
 namespace render {
 
-/// --reuse-mask, --fixup-mask and --compositing.
+/// --reuse-mask, --fixup-mask, --compositing and --band-ms.
 void addTuning(CLI::App& app, tyndall::Tuning& tuning);
 
 } // namespace render

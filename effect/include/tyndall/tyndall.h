@@ -344,8 +344,10 @@ struct Tuning {
   Masking reuse = Masking::Auto; ///< Frame::reuse: the pixels that have changed
   Masking fixup = Masking::Auto; ///< Technique::Epipolar: the pixels that no sample serves
   Compositing compositing = Compositing::Auto;
-  /// Longest that one draw is meant to take on the GPU, in milliseconds, at most 10000: a driver resets a GPU that
-  /// takes too long. 0: no limit; negative: as the table of tunings has it.
+  /// Milliseconds that a draw may take on a slow GPU, at most 10000: a driver resets one that takes longer than half a
+  /// second to two seconds. A draw that may take longer, by its rays and the shadow texels that they may cross, is
+  /// drawn in bands, each handed to the GPU by itself; timer queries of earlier frames correct the guess. 0: none is;
+  /// negative: as the table of tunings has it.
   double bandMilliseconds = -1;
 };
 
@@ -357,6 +359,8 @@ struct PassStatistics {
   std::string name;
   std::string skipped;     ///< why it did not run; empty if it ran
   double milliseconds = 0; ///< 0 if skipped or not timed
+  int bands = 0;           ///< draws that it took, more than one by Tuning::bandMilliseconds; 0 if skipped
+  double longestBand = 0;  ///< of them, in milliseconds; as those, and by PassTiming::Finish with a glFinish for each
 };
 
 struct Statistics {
@@ -420,7 +424,8 @@ struct CreateResult;
 /// function, operation and mask at their defaults; polygons filled; clip control at its default; off: culling, depth,
 /// stencil and scissor test, logic operation, rasterizer discard, sRGB framebuffers, sample mask and coverage, alpha to
 /// coverage and to one, smooth polygons, dithering, clip distances; the viewport as wide and high as the frame, or as
-/// it was if nothing was drawn. create() and a call that finds no context, another one or transform feedback active
+/// it was if nothing was drawn; the scissor box of the first viewport, where a draw was drawn in bands, that of the
+/// last one. create() and a call that finds no context, another one or transform feedback active
 /// leave all as it was.
 class Effect {
 public:

@@ -127,10 +127,12 @@ using Sync = ::__GLsync*;
   X(void, StencilOpSeparate, (Enum face, Enum fail, Enum depthFail, Enum pass), Stencil)                               \
   X(void, StencilMaskSeparate, (Enum face, Uint mask), Stencil)                                                        \
   X(void, Viewport, (Int x, Int y, Sizei width, Sizei height), Viewports)                                              \
+  X(void, Scissor, (Int x, Int y, Sizei width, Sizei height), Viewports)                                               \
   X(void, BlendFuncSeparate, (Enum srcRgb, Enum dstRgb, Enum srcAlpha, Enum dstAlpha), Blending)                       \
   X(void, BlendEquationSeparate, (Enum rgb, Enum alpha), Blending)                                                     \
   X(void, ColorMaski, (Uint index, Boolean r, Boolean g, Boolean b, Boolean a), ColourMasks)                           \
   X(void, PolygonMode, (Enum face, Enum mode), PolygonMode)                                                            \
+  X(void, Flush, (), None)                                                                                             \
   X(void, Finish, (), None)                                                                                            \
   X(void, GenQueries, (Sizei n, Uint * names), None)                                                                   \
   X(void, DeleteQueries, (Sizei n, const Uint* names), None)                                                           \
@@ -151,6 +153,7 @@ using Sync = ::__GLsync*;
 #define TYNDALL_GL_OPTIONAL(X)                                                                                         \
   X(void, GetFloati_v, (Enum name, Uint index, Float * value), None)                                                   \
   X(void, ViewportIndexedf, (Uint index, Float x, Float y, Float width, Float height), Viewports)                      \
+  X(void, ScissorIndexed, (Uint index, Int x, Int y, Sizei width, Sizei height), Viewports)                            \
   X(void, BlendFuncSeparatei, (Uint index, Enum srcRgb, Enum dstRgb, Enum srcAlpha, Enum dstAlpha), Blending)          \
   X(void, BlendEquationSeparatei, (Uint index, Enum rgb, Enum alpha), Blending)                                        \
   X(void, DispatchCompute, (Uint x, Uint y, Uint z), None)                                                             \

@@ -50,13 +50,8 @@ bool hasIndexedBlending(const Functions& gl) {
   return gl.version >= 40 && gl.BlendFuncSeparatei && gl.BlendEquationSeparatei;
 }
 
-bool hasViewportArray(const Functions& gl) { return gl.version >= 41 && gl.ViewportIndexedf && gl.GetFloati_v; }
-
-void setScissorTest(const Functions& gl, bool on) {
-  if (hasViewportArray(gl))
-    (on ? gl.Enablei : gl.Disablei)(SCISSOR_TEST, 0);
-  else
-    (on ? gl.Enable : gl.Disable)(SCISSOR_TEST);
+bool hasViewportArray(const Functions& gl) {
+  return gl.version >= 41 && gl.ViewportIndexedf && gl.ScissorIndexed && gl.GetFloati_v;
 }
 
 void setClipControl(const Functions& gl, const std::array<Int, 2>& control) {
@@ -166,6 +161,7 @@ void StateGuard::restore() const {
   else
     gl_.Viewport(static_cast<Int>(viewport_[0]), static_cast<Int>(viewport_[1]), static_cast<Sizei>(viewport_[2]),
                  static_cast<Sizei>(viewport_[3]));
+  if (scissorBox_) setScissor(gl_, *scissorBox_);
   if (scissor_) setScissorTest(gl_, true);
   if (savesStencil_) restoreStencil();
 }
@@ -285,6 +281,15 @@ void StateGuard::saveStencil() {
                  integer(gl_, STENCIL_BACK_PASS_DEPTH_PASS)};
 }
 
+void StateGuard::saveScissorBox() {
+  if (scissorBox_ || !restores()) return;
+  scissorBox_.emplace();
+  if (hasViewportArray(gl_))
+    gl_.GetIntegeri_v(SCISSOR_BOX, 0, scissorBox_->data());
+  else
+    gl_.GetIntegerv(SCISSOR_BOX, scissorBox_->data());
+}
+
 void StateGuard::restoreStencil() const {
   for (std::size_t i = 0; i < 2; ++i) {
     const StencilFace& f = stencil_[i];
@@ -364,6 +369,20 @@ void setViewport(const Functions& gl, Int x, Int y, Sizei width, Sizei height) {
                         static_cast<Float>(height));
   else
     gl.Viewport(x, y, width, height);
+}
+
+void setScissor(const Functions& gl, const std::array<Int, 4>& box) {
+  if (hasViewportArray(gl))
+    gl.ScissorIndexed(0, box[0], box[1], box[2], box[3]);
+  else
+    gl.Scissor(box[0], box[1], box[2], box[3]);
+}
+
+void setScissorTest(const Functions& gl, bool on) {
+  if (hasViewportArray(gl))
+    (on ? gl.Enablei : gl.Disablei)(SCISSOR_TEST, 0);
+  else
+    (on ? gl.Enable : gl.Disable)(SCISSOR_TEST);
 }
 
 void setBlending(const Functions& gl, Uint count, bool on, const BlendFactors& factors) {

@@ -7,6 +7,7 @@
 #include "gl/Functions.h"
 
 #include <array>
+#include <optional>
 #include <tyndall/tyndall.h>
 #include <vector>
 
@@ -28,6 +29,8 @@ public:
   void saveUnits(int count, bool arrays, bool multisampled);
   /// Function, operation and mask of the stencil; its test is off in any case.
   void saveStencil();
+  /// Of viewport 0; its test is off in any case.
+  void saveScissorBox();
 
 private:
   struct Unit {
@@ -79,6 +82,7 @@ private:
   std::array<Int, 5> unpacking_{};
   std::array<Float, 4> viewport_{};
   Boolean scissor_ = 0;
+  std::optional<std::array<Int, 4>> scissorBox_;
   std::vector<Enum> capabilities_; // that are on
   std::array<UniformBinding, kUniformBindings> uniformBindings_;
   std::array<DrawBuffer, kDrawBuffers> drawBuffers_;
@@ -106,6 +110,10 @@ private:
 
 /// Sets the viewport of index 0 alone, where the context has several.
 void setViewport(const Functions& gl, Int x, Int y, Sizei width, Sizei height);
+
+/// Draws into viewport 0 only where the box is: x, y, width, height; while the test is on.
+void setScissor(const Functions& gl, const std::array<Int, 4>& box);
+void setScissorTest(const Functions& gl, bool on);
 
 struct BlendFactors {
   Enum source = ONE, destination = ZERO, sourceAlpha = ONE, destinationAlpha = ZERO;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace tyndall {
 
@@ -44,8 +45,9 @@ void forEachDraw(const FramePlan& plan, Function&& function) {
 // Sets GL state for one draw after the other, of what has changed only.
 class Drawer {
 public:
-  Drawer(const gl::Functions& gl, const DrawObjects& objects, PassRecorder& recorder)
-      : gl_(gl), objects_(objects), recorder_(recorder) {}
+  Drawer(const gl::Functions& gl, const DrawObjects& objects, PassRecorder& recorder, BandPaces& paces,
+         double bandMilliseconds)
+      : gl_(gl), objects_(objects), recorder_(recorder), paces_(paces), most_(bandMilliseconds) {}
 
   void begin();
   void operator()(const Upload& upload);
@@ -67,10 +69,16 @@ private:
   void setBlend(Blend blend);
   void setStencil(const Stencil& stencil);
   void setViewport(const Viewport& viewport);
+  void setScissor(const Viewport& band);
+  void endScissor();
+  void submit(double milliseconds);
+  void drawVertices(const Draw& draw);
+  void drawBands(const Draw& draw);
 
   const gl::Functions& gl_;
   const DrawObjects& objects_;
   PassRecorder& recorder_;
+  BandPaces& paces_;
   std::array<int, 3> blocks_ = {-1, -1, -1};
   std::vector<Bound> units_;
   std::vector<gl::Uint> samplers_; // of the units; 0: none, or the engine's
@@ -78,6 +86,8 @@ private:
   Blend blend_ = Blend::Replace;
   Stencil stencil_;
   Viewport viewport_{-1, -1, -1, -1};
+  bool scissor_ = false;
+  double most_, pending_ = 0; // milliseconds, of what GL gets at once; 0: no limit
 };
 
 void Drawer::begin() {
@@ -88,6 +98,7 @@ void Drawer::begin() {
 void Drawer::end() {
   setBlend(Blend::Replace);
   setStencil({});
+  endScissor();
 }
 
 void Drawer::operator()(const Upload& upload) {
@@ -97,6 +108,7 @@ void Drawer::operator()(const Upload& upload) {
 }
 
 void Drawer::operator()(const Clear& clear) {
+  endScissor();
   bindFramebuffer(clear.framebuffer);
   if (clear.stencil) {
     const gl::Int zero = 0;
@@ -116,14 +128,38 @@ void Drawer::operator()(const Draw& draw) {
   setViewport(draw.viewport);
   setBlend(draw.blend);
   setStencil(draw.stencil);
-  const auto drawArrays = [&] {
-    if (draw.instances == 1)
-      gl_.DrawArrays(gl::TRIANGLES, draw.firstVertex, draw.vertices);
-    else
-      gl_.DrawArraysInstanced(gl::TRIANGLES, draw.firstVertex, draw.vertices, draw.instances);
-    return true;
-  };
-  recorder_.run(draw.title, drawArrays, draw.counting);
+  recorder_.run(draw.title, [&] { return drawBands(draw), true; }, draw.counting);
+}
+
+void Drawer::drawVertices(const Draw& draw) {
+  if (draw.instances == 1)
+    gl_.DrawArrays(gl::TRIANGLES, draw.firstVertex, draw.vertices);
+  else
+    gl_.DrawArraysInstanced(gl::TRIANGLES, draw.firstVertex, draw.vertices, draw.instances);
+}
+
+void Drawer::drawBands(const Draw& draw) {
+  const bool learns = draw.bands.estimate > 0;
+  if (learns) paces_.begin(draw.title, draw.bands.estimate, draw.bandCount());
+  if (draw.isWhole()) endScissor();
+  bool first = true;
+  forEachBand(draw.viewport, draw.bands.size, [&](const Viewport& band) {
+    if (!std::exchange(first, false)) recorder_.nextBand();
+    submit(draw.bands.milliseconds);
+    if (!draw.isWhole()) setScissor(band);
+    drawVertices(draw);
+    if (learns) paces_.endBand();
+  });
+}
+
+// What is drawn next, and takes so long. A driver gathers draws and hands them to the GPU together, whose watchdog
+// counts until all of them are done: without a flush bands would be no shorter than what they are parts of.
+void Drawer::submit(double milliseconds) {
+  if (most_ > 0 && pending_ > 0 && pending_ + milliseconds > most_) {
+    gl_.Flush();
+    pending_ = 0;
+  }
+  pending_ += milliseconds;
 }
 
 void Drawer::activate(gl::Uint unit) {
@@ -218,6 +254,15 @@ void Drawer::setViewport(const Viewport& v) {
   viewport_ = v;
 }
 
+void Drawer::setScissor(const Viewport& band) {
+  gl::setScissor(gl_, {band.x, band.y, band.width, band.height});
+  if (!std::exchange(scissor_, true)) gl::setScissorTest(gl_, true);
+}
+
+void Drawer::endScissor() {
+  if (std::exchange(scissor_, false)) gl::setScissorTest(gl_, false);
+}
+
 } // namespace
 
 void requestPrograms(const FramePlan& plan, gl::ProgramCache& programs) {
@@ -235,6 +280,7 @@ UnitsUsed unitsOf(const FramePlan& plan) {
   UnitsUsed used;
   used.count = 1; // tables are uploaded through the first
   forEachDraw(plan, [&](const Draw& draw) {
+    used.scissor = used.scissor || !draw.isWhole();
     used.stencil = used.stencil || !draw.stencil.isOff();
     for (const Draw::Reading& reading : draw.textures) {
       used.count = std::max(used.count, static_cast<int>(reading.unit) + 1);
@@ -245,8 +291,9 @@ UnitsUsed unitsOf(const FramePlan& plan) {
   return used;
 }
 
-void drawPlan(const FramePlan& plan, const gl::Functions& gl, const DrawObjects& objects, PassRecorder& recorder) {
-  Drawer drawer(gl, objects, recorder);
+void drawPlan(const FramePlan& plan, const gl::Functions& gl, const DrawObjects& objects, PassRecorder& recorder,
+              BandPaces& paces) {
+  Drawer drawer(gl, objects, recorder, paces, plan.bandMilliseconds);
   drawer.begin();
   for (const Step& step : plan.steps)
     std::visit(drawer, step);

@@ -1,6 +1,7 @@
 // Carries a plan out. Nothing in it can fail but by a lost context; nothing waits.
 #pragma once
 
+#include "BandPaces.h"
 #include "PassRecorder.h"
 #include "gl/ProgramCache.h"
 #include "plan/BlockBuffers.h"
@@ -16,10 +17,10 @@ struct DrawObjects {
   const BlockBuffers& blocks;  ///< the plan's
 };
 
-/// Texture units and targets that a plan's programs read.
+/// Texture units and targets that a plan's programs read, and what else of GL's state its draws change.
 struct UnitsUsed {
   int count = 0;
-  bool arrays = false, multisampled = false, stencil = false;
+  bool arrays = false, multisampled = false, stencil = false, scissor = false;
 };
 
 /// Starts to build the plan's programs.
@@ -34,6 +35,7 @@ Status resolvePrograms(FramePlan& plan, gl::ProgramCache& programs, Resolve what
 
 UnitsUsed unitsOf(const FramePlan& plan);
 
-void drawPlan(const FramePlan& plan, const gl::Functions& gl, const DrawObjects& objects, PassRecorder& recorder);
+void drawPlan(const FramePlan& plan, const gl::Functions& gl, const DrawObjects& objects, PassRecorder& recorder,
+              BandPaces& paces);
 
 } // namespace tyndall

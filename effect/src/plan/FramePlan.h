@@ -2,8 +2,10 @@
 #pragma once
 
 #include "PassRecorder.h"
+#include "Rounding.h"
 #include "SharedBlocks.h"
 #include "gl/Variant.h"
+#include "plan/Resources.h"
 
 #include <algorithm>
 #include <array>
@@ -47,6 +49,22 @@ struct Viewport {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
+/// The rectangles that a draw is drawn in, one after the other: none takes longer than a limit.
+struct Bands {
+  Size size;               ///< of each; of what is left at the right and at the top less. 0, 0: there is one
+  double milliseconds = 0; ///< that one may take
+  double estimate = 0;     ///< the same before what was learned of it; 0: nothing is to be
+};
+
+/// From the lowest row on, each from left to right.
+template <typename Function>
+void forEachBand(const Viewport& all, const Size& size, Function&& function) {
+  const int width = size.width > 0 ? size.width : all.width, height = size.height > 0 ? size.height : all.height;
+  for (int y = 0; y < all.height; y += height)
+    for (int x = 0; x < all.width; x += width)
+      function(Viewport{all.x + x, all.y + y, std::min(width, all.width - x), std::min(height, all.height - y)});
+}
+
 /// Texels of the CPU's for a texture of our own.
 struct Upload {
   gl::Uint texture = 0;
@@ -73,6 +91,7 @@ struct Draw {
   std::vector<NamedTexture> reads;
   gl::Uint framebuffer = 0;
   Viewport viewport;
+  Bands bands;
   Blend blend = Blend::Replace;
   Stencil stencil;
   Counting counting;
@@ -86,6 +105,12 @@ struct Draw {
     gl::Uint texture;
   };
   std::vector<Reading> textures;
+
+  int bandCount() const {
+    const auto parts = [](int length, int part) { return part > 0 ? unitsFor(length, part) : 1; };
+    return parts(viewport.width, bands.size.width) * parts(viewport.height, bands.size.height);
+  }
+  bool isWhole() const { return bandCount() == 1; }
 };
 
 /// A pass that is not drawn, and why.
@@ -102,7 +127,8 @@ struct FramePlan {
   std::vector<Step> steps;
   /// Uniform blocks; the first stands for those that a draw does not read, since GL wants all of a program's bound.
   std::vector<std::vector<std::uint8_t>> blocks{std::vector<std::uint8_t>(kLargestBlock)};
-  std::uint64_t marched = 0; ///< rays that need no counting
+  std::uint64_t marched = 0;   ///< rays that need no counting
+  double bandMilliseconds = 0; ///< longest that a draw, or what GL gets at once, may take; 0: no limit
 
   void skip(std::string pass, std::string why) { steps.emplace_back(Skip{std::move(pass), std::move(why)}); }
 

@@ -24,6 +24,8 @@ LightPlanner::LightPlanner(const PassPlanner& planner, const Frame& lit, const D
   board[Resource::Curves] = light.curves.texture;
   mapSize_ = {map.width, map.height};
   if (variant.shadowViews > 0) shadowViews_ = static_cast<int>(light.shadow.views.size());
+  paths.views = shadowViews_;
+  paths.map = mapSize_;
 }
 
 void LightPlanner::makeSlices(const Limits& limits) {
@@ -61,6 +63,8 @@ void LightPlanner::chooseRow(int longestRow) {
   extent.treeLevels = frame.settings.minMaxTree ? top : 0;
   block.rowLength = extent.drawnTexels;
   block.treeLevels = extent.treeLevels;
+  paths.rowTexels = extent.drawnTexels;
+  paths.tree = frame.settings.minMaxTree;
 }
 
 // Shadow views whose rows stand above one another in the row textures: all of a light's, so that rows are made once and
@@ -79,6 +83,7 @@ void LightPlanner::selectDraw(int draw) {
   block.drawnViews = std::min(viewsPerDraw, views() - block.firstView);
   block.bringsOutside = draw == 0 ? 1 : 0;
   extent.rows = extent.slices * block.drawnViews;
+  paths.drawnViews = block.drawnViews;
   drawIndex = draw;
   epipolarBlock = plan.add(block);
 }

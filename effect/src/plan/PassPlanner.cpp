@@ -57,6 +57,7 @@ void PassPlanner::draw(Pass pass, const std::string& title, const DrawOptions& o
   addReads(row, draw);
   addTarget(row, options, draw);
   if (options.viewport) draw.viewport = *options.viewport;
+  addBands(row, draw);
   addVertices(row.shape, changes, draw);
   if (options.clearTo) plan.steps.emplace_back(Clear{draw.framebuffer, 0, {*options.clearTo, 0, 0, *options.clearTo}});
   plan.steps.emplace_back(std::move(draw));
@@ -164,6 +165,19 @@ gl::Uint PassPlanner::imageTarget(std::array<gl::Uint, 3> colours, bool withSten
     return texture != 0 && std::find(engines.begin(), engines.end(), texture) != engines.end();
   });
   return allocator.framebuffer(attachments, colours[0] != 0 && colours[0] == destination.colour ? "colour" : "output");
+}
+
+// Where a draw may take longer than allowed at the slowest pace that is believed, it is watched.
+void PassPlanner::addBands(const PassRow& row, Draw& draw) const {
+  const double most = plan.bandMilliseconds;
+  if (!(most > 0)) return;
+  const Size target{draw.viewport.width, draw.viewport.height};
+  const double nanoseconds = nanosecondsPerFragment(row, variant, paths);
+  const double all = 1e-6 * nanoseconds * target.width * target.height;
+  const bool learns = paces && row.walk != RayWalk::None && BandPaces::kMost * all > most;
+  const double pace = learns ? paces->of(draw.title) : 1;
+  draw.bands = bandsOf(target, pace * nanoseconds, most);
+  if (learns) draw.bands.estimate = draw.bands.milliseconds / pace;
 }
 
 Blend PassPlanner::blendOf(Joining joining, bool adds) const {

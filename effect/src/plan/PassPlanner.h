@@ -2,6 +2,8 @@
 // to, how large. Textures and framebuffers are made on the way; the first that cannot be is the plan's end.
 #pragma once
 
+#include "BandPaces.h"
+#include "plan/Bands.h"
 #include "plan/FramePlan.h"
 #include "plan/Passes.h"
 #include "plan/Targets.h"
@@ -78,6 +80,8 @@ public:
   Board board;                   ///< what passes find, and what they leave
   Extent extent;
   LightVariant variant;
+  RayPaths paths;
+  const BandPaces* paces = nullptr; ///< what is known of earlier frames' draws
   Destination destination;
   std::string name;       ///< of the light, for statistics; else empty
   bool firstLight = true; ///< of the frame: the one that brings the transmittance
@@ -104,6 +108,7 @@ private:
   void addTarget(const PassRow& row, const DrawOptions& options, Draw& draw);
   void addOwnTarget(const PassRow& row, bool withStencil, Draw& draw);
   void addVertices(Shape shape, bool changes, Draw& draw) const;
+  void addBands(const PassRow& row, Draw& draw) const;
   Blend blendOf(Joining joining, bool adds) const;
   gl::Uint imageTarget(std::array<gl::Uint, 3> colours, bool withStencil);
   gl::Uint destinationTarget(Blend blend, bool withStencil);

@@ -42,7 +42,14 @@ public:
       }
     });
   }
-  Row walksRows() const; ///< reads them, and looks up in the maps
+  Row walksTexels() const;   ///< of the maps
+  Row walksRows() const;     ///< and looks up in the maps
+  Row walksOwnLine() const { // past what the rows' trees skip
+    return walksRows().with([](PassRow& r) { r.walk = RayWalk::OwnLine; });
+  }
+  Row rays(int perFragment) const {
+    return with([&](PassRow& r) { r.raysPerFragment = perFragment; });
+  }
   Row writes(std::vector<R> what) const {
     return with([&](PassRow& r) { r.writes = what; });
   }
@@ -73,8 +80,15 @@ private:
   PassRow row_;
 };
 
+Row Row::walksTexels() const {
+  return reads({R::ShadowMap, R::GlassColour, R::GlassDepth, R::Curves}).with([](PassRow& r) {
+    r.walk = RayWalk::AllTexels;
+  });
+}
+
 Row Row::walksRows() const {
   return with([](PassRow& r) {
+    r.walk = RayWalk::Row;
     for (const R resource : {R::ShadowMap, R::GlassColour, R::GlassDepth, R::Curves, R::CurveCells, R::CurveTree,
                              R::RowDepths, R::RowShares, R::RowTree, R::RowMeans, R::RowMoments})
       r.reads.emplace_back(resource);
@@ -88,7 +102,7 @@ std::vector<PassRow> makeRows() {
   return {
       Row(Pass::Exact, "exact", "passes/exact.frag", S::Image)
           .readsIfThere({R::SceneDepth, R::SceneDepthSamples}) // one of the two
-          .reads({R::ShadowMap, R::GlassColour, R::GlassDepth, R::Curves})
+          .walksTexels()
           .into(Into::Destination)
           .joins(kSumOfLights),
       Row(Pass::Transmittance, "transmittance", "passes/transmittance.frag", S::Image)
@@ -218,6 +232,7 @@ std::vector<PassRow> makeRows() {
       Row(Pass::MarchExtra, "march extra", "passes/marchExtra.frag", S::StripsOfSlices)
           .reads({R::SliceTable, R::SampleEnds, {R::RefinedMarks, "marks"}, R::ExtraOffsets})
           .walksRows()
+          .rays(2)
           .writes({R::Extra, R::ExtraSecond})
           .joins(kSumOfDraws),
       Row(Pass::Interpolate, "interpolate", "passes/interpolate.frag", S::Slices)
@@ -247,12 +262,12 @@ std::vector<PassRow> makeRows() {
           .joins(kSumOfLights),
       Row(Pass::FixupAllTexels, "fix-up", "passes/exact.frag", S::Image)
           .readsIfThere({R::SceneDepth, R::SceneDepthSamples}) // one of the two
-          .reads({R::ShadowMap, R::GlassColour, R::GlassDepth, R::Curves})
+          .walksTexels()
           .into(Into::Destination)
           .joins(kSumOfLights),
       Row(Pass::FixupOwnLine, "fix-up", "passes/fixup.frag", S::Image)
           .reads({R::SceneDepth, R::SliceTable, {R::PairTree, "rowTree"}})
-          .walksRows()
+          .walksOwnLine()
           .into(Into::Destination)
           .joins(kSumOfLights),
       Row(Pass::KeepEnds, "keep ends", "passes/copyTexels.frag", S::Slices)

@@ -105,6 +105,14 @@ enum class Joining {
   OverwriteRgb,    ///< alpha stays
 };
 
+/// What each of a fragment's rays looks at.
+enum class RayWalk {
+  None,
+  AllTexels, ///< along it, in every shadow view of the light
+  Row,       ///< of its slice, by its tree, in the shadow views of the draw
+  OwnLine,   ///< texels along it, but for those that a row's tree skips
+};
+
 struct Read {
   Read(Resource what, const char* sampler = nullptr)
       : resource(what), as(sampler) {} // NOLINT: a list of resources is one of these
@@ -138,6 +146,8 @@ struct PassRow {
   Into into = Into::Own;
   Joining joining = Joining::Replace;
   std::vector<Option> options = {};
+  RayWalk walk = RayWalk::None;
+  int raysPerFragment = 1;
   bool ofLights = true;                        ///< its programs differ by the light's variant
   bool (*occurs)(const Occurrence&) = nullptr; ///< null: always
 };

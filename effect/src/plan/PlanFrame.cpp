@@ -71,6 +71,9 @@ FramePlanner::FramePlanner(const PlanInputs& inputs, Allocator& allocator, Plann
   passes_.extent.height = frame_.height;
   passes_.extent.wideColour = inputs.textures.colourMax >= kLargestFloat;
   passes_.variant.dualSource = inputs.tuning.compositing == Compositing::DualSource;
+  passes_.paths.depthSamples = inputs.textures.depthSamples;
+  passes_.paces = inputs.paces;
+  out.plan.bandMilliseconds = inputs.tuning.bandMilliseconds;
   passes_.board[frame_.depth.multisampled ? Resource::SceneDepthSamples : Resource::SceneDepth] = frame_.depth.texture;
 }
 

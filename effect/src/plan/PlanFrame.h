@@ -18,8 +18,9 @@ struct PlanInputs {
   const Limits& limits;
   const Tuning& tuning;
   Targets& targets;
-  KeptEye* eye = nullptr; ///< temporal reuse; null: nothing is kept
-  bool counts = true;     ///< queries may be used: none of the engine's own is under way
+  KeptEye* eye = nullptr;           ///< temporal reuse; null: nothing is kept
+  bool counts = true;               ///< queries may be used: none of the engine's own is under way
+  const BandPaces* paces = nullptr; ///< of earlier frames' draws; null: nothing is known
   // To compile ahead of frames like this one:
   bool ahead = false;              ///< with a camera that may look elsewhere
   std::optional<bool> sumsApart{}; ///< lights may, or may not, need a texture of their own to be added up in

@@ -119,6 +119,8 @@ TEST_CASE("tyndall-render takes only whole numbers within their ranges") {
       checkUsageError({"triangle.gltf", option, name}, {option, name});
   for (const std::string repeat : {"0", "-1", "3x", "10001"})
     checkUsageError({"triangle.gltf", "--repeat", repeat}, {"--repeat: ", repeat});
+  for (const std::string milliseconds : {"nan", "-1", "10001", "long"})
+    checkUsageError({"triangle.gltf", "--band-ms", milliseconds}, {"--band-ms: ", milliseconds});
   for (const std::string exposure : {"nan", "inf", "1e400", "101", "bright"})
     checkUsageError({"triangle.gltf", "--exposure", exposure}, {"--exposure: ", exposure});
   for (const std::string frames : {"3-1", "a-b", "5", "1-2-3", "-1-3", "0-1000000", "0 - 3"})

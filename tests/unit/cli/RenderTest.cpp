@@ -1,6 +1,7 @@
 #include "RunTool.h"
 #include "support/Catch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <scene/ImageFile.h>
@@ -110,6 +111,27 @@ TEST_CASE("tyndall-render writes statistics") {
   CHECK(stats.at("marched_samples") == kSize * kSize);
   CHECK(stats.at("fixup_pixels") == 0);
   CHECK(stats.size() == 11);
+}
+
+TEST_CASE("tyndall-render draws in bands the picture of whole draws, and its statistics tell the longest") {
+  const tests::ToolFolder folder;
+  for (const char* milliseconds : {"0", "0.001"}) {
+    const std::string name = milliseconds;
+    REQUIRE(folder
+                .run(viewWith(
+                    {"--profile", "reference", "--band-ms", name, "--out", name + ".exr", "--stats", name + ".json"}))
+                .exitCode == 0);
+  }
+  CHECK(folder.read("0.exr") == folder.read("0.001.exr"));
+  const auto isBanded = [](const nlohmann::json& pass) { return pass.contains("bands"); };
+  const nlohmann::json whole = nlohmann::json::parse(folder.read("0.json")).at("passes");
+  const nlohmann::json banded = nlohmann::json::parse(folder.read("0.001.json")).at("passes");
+  CHECK(std::none_of(whole.begin(), whole.end(), isBanded));
+  const auto found = std::find_if(banded.begin(), banded.end(), isBanded);
+  REQUIRE(found != banded.end());
+  CHECK(found->at("bands") > 1);
+  CHECK(found->at("longest_ms") > 0);
+  CHECK(found->at("longest_ms") < found->at("ms"));
 }
 
 TEST_CASE("the statistics tell what the shadows of smoke cost, if there are any") {
