@@ -7,8 +7,22 @@
 namespace tyndall {
 
 void BandPaces::beginFrame() {
+  for (Frame& frame : frames_)
+    if (isKnown(frame)) learnFrom(frame);
   frame_ = (frame_ + 1) % frames_.size();
-  Frame& frame = frames_[frame_];
+  frames_[frame_].used = 0; // not known in time
+}
+
+// The last of its results comes last.
+bool BandPaces::isKnown(const Frame& frame) const {
+  if (frame.used == 0) return false;
+  const Watch& last = frame.watches[frame.used - 1];
+  gl::Uint64 available = 0;
+  gl_.GetQueryObjectui64v(last.queries[last.stamps - 1].name(), gl::QUERY_RESULT_AVAILABLE, &available);
+  return available != 0;
+}
+
+void BandPaces::learnFrom(Frame& frame) {
   std::map<std::string, double> measured;
   for (std::size_t i = 0; i < frame.used; ++i) {
     double& pace = measured[frame.watches[i].title];

@@ -46,6 +46,8 @@ private:
     std::size_t used = 0;
   };
 
+  bool isKnown(const Frame& frame) const;
+  void learnFrom(Frame& frame);
   void stamp();
   double slowest(const Watch& watch) const;
 
