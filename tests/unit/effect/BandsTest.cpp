@@ -143,7 +143,7 @@ TEST_CASE("no draw of exact at 3840 x 2160 with a map of 8192 x 8192 takes longe
     planned.mapSize = 8192;
     planned.add(LightKind::Directional);
     const std::vector<Draw> draws = planned.draws(milliseconds);
-    const Draw& exact = drawNamed(draws, "exact light 0");
+    const Draw exact = drawNamed(draws, "exact light 0");
     CAPTURE(milliseconds, exact.bands.size.width, exact.bands.size.height);
     // Rays by the texels that each may cross, at a quarter of a nanosecond.
     const double all = 1e-6 * 3840.0 * 2160 * (2 * 8192) * 0.25;
@@ -319,7 +319,7 @@ TEST_CASE("what was learned of a draw makes its bands shorter or longer, and wha
     }
     planned.paces = &paces;
     const std::vector<Draw> draws = planned.draws(100);
-    const Draw& exact = drawNamed(draws, "exact light 0");
+    const Draw exact = drawNamed(draws, "exact light 0");
     CAPTURE(pace, known, countOf(exact));
     const double learned = std::clamp(pace, 0.8, BandPaces::kMost); // whole blocks make up to twice as many
     CHECK(countOf(exact) >= 0.9 * learned * known);
