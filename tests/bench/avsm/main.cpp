@@ -216,7 +216,7 @@ std::vector<MethodEntry> chosen(const Options& options) {
 
 void run(const Options& options) {
   const std::unique_ptr<host::Context> context =
-      host::Context::create(options.context ? *options.context : host::defaultContextKind());
+      host::Context::create(options.context ? *options.context : host::defaultContextKind(), {/*debug*/ false});
   if (context->glVersion() < 43) throw host::Error("the context is older than OpenGL 4.3");
   const std::vector<MethodEntry> methods = chosen(options);
   for (const std::string& file : {options.csv, options.curves})
