@@ -84,7 +84,7 @@ void applyAll(Given& given, Options& options) {
   given.request.techniques = techniquesOf(allTechniques());
   given.references = {"map", "scene"};
   given.scaling = true;
-  options.floors = true;
+  options.floors = options.calls = true;
 }
 
 void addLists(CLI::App& app, Given& given) {
@@ -116,6 +116,9 @@ void addLists(CLI::App& app, Given& given) {
 void addOptions(CLI::App& app, Given& given, Options& options) {
   addLists(app, given);
   app.add_option("--runs", options.runs, "timed runs of each technique (default 5)")->check(CLI::Range(5, 1000));
+  app.add_option("--run-seconds", options.secondsOfRuns,
+                 "of a technique's timed runs together: after three and so long it has no more (default: no limit)")
+      ->check(render::numberThat("must be above 0", [](double seconds) { return seconds > 0; }));
   const CLI::Validator isWritable([](const std::string& folder) { return reasonAgainst(folder); }, "");
   app.add_option("--out", options.out, "a folder for bench.csv, bench.json and plots")
       ->type_name("FOLDER")
@@ -126,6 +129,7 @@ void addOptions(CLI::App& app, Given& given, Options& options) {
       ->check(CLI::ExistingDirectory)
       ->check(isWritable);
   app.add_flag("--floors", options.floors, "what each pass of ours would cost if it only read and wrote its bytes");
+  app.add_flag("--calls", options.calls, "what render() takes of the processor, for each state mode of ours");
   app.add_flag("--scaling", given.scaling, "the scaling series, too");
   app.add_flag("--plots", options.plots, "draw them (needs python3 with matplotlib)");
   auto* quick =
