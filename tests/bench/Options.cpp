@@ -2,6 +2,8 @@
 
 #include "render/SceneAnswers.h"
 
+#include <algorithm>
+#include <iterator>
 #include <render/OptionRules.h>
 #include <scene/Error.h>
 #include <scene/FileIo.h>
@@ -17,7 +19,7 @@ constexpr const char* kAllFolder = "bench-report";
 /// What does not go into the options as it is.
 struct Given {
   Request request;
-  std::vector<std::string> references;
+  std::vector<std::string> references, series;
   bool quick = false, all = false, scaling = false;
 };
 
@@ -130,7 +132,10 @@ void addOptions(CLI::App& app, Given& given, Options& options) {
       ->check(isWritable);
   app.add_flag("--floors", options.floors, "what each pass of ours would cost if it only read and wrote its bytes");
   app.add_flag("--calls", options.calls, "what render() takes of the processor, for each state mode of ours");
-  app.add_flag("--scaling", given.scaling, "the scaling series, too");
+  auto* scaling = app.add_flag("--scaling", given.scaling, "the scaling series, too");
+  render::addList(app, "--series", given.series, render::oneOf("--series", kSeries),
+                  "only these: curve, as the lists say, shadow, image, slices, lights, density", kSeries)
+      ->excludes(scaling);
   app.add_flag("--plots", options.plots, "draw them (needs python3 with matplotlib)");
   auto* quick =
       app.add_flag("--quick", given.quick, "small pictures of two scenes, within a minute; overrides the lists");
@@ -141,10 +146,13 @@ void addOptions(CLI::App& app, Given& given, Options& options) {
 Options complete(Given& given, Options options) {
   if (given.quick) applyQuick(given.request);
   if (given.all) applyAll(given, options);
-  options.setups = planCurves(given.request);
-  if (given.scaling)
-    for (Setup& setup : planScaling())
-      options.setups.push_back(std::move(setup));
+  const auto isWanted = [&](const std::string& series) {
+    if (given.series.empty()) return series == "curve" || given.scaling;
+    return std::find(given.series.begin(), given.series.end(), series) != given.series.end();
+  };
+  for (const auto& setups : {planCurves(given.request), planScaling(given.request.contexts.front())})
+    std::copy_if(setups.begin(), setups.end(), std::back_inserter(options.setups),
+                 [&](const Setup& setup) { return isWanted(setup.series); });
   for (const std::string& name : given.references)
     (name == "map" ? options.mapExact : options.sceneExact) = true;
   readOutputs(given, options);

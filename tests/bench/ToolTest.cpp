@@ -67,7 +67,7 @@ private:
 } // namespace
 
 TEST_CASE("wrong usage is a line that names the option and one on how to get help, exit code 2") {
-  const std::array<std::array<const char*, 2>, 18> cases = {{
+  const std::array<std::array<const char*, 2>, 21> cases = {{
       {"--scenes cathedral", "--scenes cathedral: must be one of nave"},
       {"--scenes nave,,stage", "--scenes \"nave,,stage\": must be a list separated by single commas"},
       {"--scenes nave,nave", "--scenes nave,nave: names nave twice"},
@@ -83,6 +83,9 @@ TEST_CASE("wrong usage is a line that names the option and one on how to get hel
       {"--contexts vulkan", "--contexts vulkan: must be osmesa, egl or glfw"},
       {"--references truth", "--references truth: must be one of map, scene"},
       {"--runs 4", "--runs: Value 4 not in range"},
+      {"--run-seconds 0", "--run-seconds: "},
+      {"--series size", "--series size: must be one of curve, shadow"},
+      {"--series shadow --scaling", " excludes --"},
       {"--out /no/such/folder", "--out: Directory does not exist: /no/such/folder"},
       {"--quick --all", " excludes --"},
       {"--plots", "--plots requires --out"},

@@ -125,7 +125,10 @@ private:
     if (has("sequence.csv"))
       if (const Json sequence = sequenceOf(folder / "sequence.csv", name); !sequence.is_null())
         json["sequences"].push_back(sequence);
-    if (has("avsm.csv")) json["avsm"] = readCsv(linesOf(folder / "avsm.csv"));
+    if (has("avsm.csv"))
+      for (const Json& row : readCsv(linesOf(folder / "avsm.csv")))
+        json["avsm"].push_back(row);
+    if (has("nvidia-smi")) json["clocks"] = linesOf(folder / "nvidia-smi");
   }
 
   static Json picturesOf(const fs::path& folder) {
@@ -150,11 +153,24 @@ private:
   static void addBench(const Json& from, Json& to) {
     for (const char* field : {"machine", "commit", "date"})
       if (!to.contains(field)) to[field] = from.at(field);
-    for (const char* list : {"results", "equal_error", "scaling"})
+    for (const char* list : {"equal_error", "scaling"})
       append(to, list, from);
+    for (const Json& result : from.at("results"))
+      if (!isKnown(result, to)) to["results"].push_back(result);
   }
 
-  const fs::path& parts_;
+  /// Whether an earlier step timed the same technique on the same setup.
+  static bool isKnown(const Json& result, const Json& bench) {
+    const Json none = Json::array();
+    const Json& all = bench.contains("results") ? bench.at("results") : none;
+    return std::any_of(all.begin(), all.end(), [&](const Json& other) {
+      for (const char* field : {"series", "x", "scene", "size", "shadow_size", "lights", "density", "technique"})
+        if (result.at(field) != other.at(field)) return false;
+      return other.contains("ms");
+    });
+  }
+
+  fs::path parts_;
 };
 
 } // namespace
