@@ -26,7 +26,7 @@ sh gpu.sh [options]            measures, and writes a report into a folder
   --only LETTERS   of the parts: a who (always), b tests, c pictures, d run time, e reuse, smoke and hair (default abcde)
   --quick          small pictures, as a software driver gets anyway
   --full           the sizes of a GPU, also for a software driver
-  --limits FACTOR  on all limits of time, a whole number from 1 to 60 (default 1: eight minutes)
+  --limits FACTOR  on all limits of time, from 0.01 to 60 (default 1: eight minutes)
   --again          what failed, or was ended at its limit, is run again
   --build DIR      the build folder (default: build/ of the project)
 sh gpu.sh --bundle DIR         packs all that this needs into a new folder
@@ -36,59 +36,68 @@ HELP
   exit 0
 }
 
-out=gpu-report parts=abcde size='' factor=1 again='' build='' command=run bundle=''
-while [ $# -gt 0 ]; do
-  case $1 in
-  --out | --only | --limits | --build | --bundle | --plots)
-    [ $# -gt 1 ] || usage "$1: a value must follow"
-    [ -n "$2" ] || usage "$1: must not be empty"
+# A function: the script may change while it runs.
+main() {
+  out=gpu-report parts=abcde size='' factor=1 again='' build='' command=run bundle=''
+  while [ $# -gt 0 ]; do
     case $1 in
-    --out) out=$2 ;;
-    --only) parts=$2 ;;
-    --limits) factor=$2 ;;
-    --build) build=$2 ;;
-    --bundle) command=bundle bundle=$2 ;;
-    --plots) command=plots out=$2 ;;
+    --out | --only | --limits | --build | --bundle | --plots)
+      [ $# -gt 1 ] || usage "$1: a value must follow"
+      [ -n "$2" ] || usage "$1: must not be empty"
+      case $1 in
+      --out) out=$2 ;;
+      --only) parts=$2 ;;
+      --limits) factor=$2 ;;
+      --build) build=$2 ;;
+      --bundle) command=bundle bundle=$2 ;;
+      --plots) command=plots out=$2 ;;
+      esac
+      shift
+      ;;
+    --quick | --full)
+      [ -z "$size" ] || [ "$size" = "${1#--}" ] || usage "$1: excludes --$size"
+      size=${1#--}
+      ;;
+    --again) again=1 ;;
+    --help | -h) help ;;
+    *) usage "$1: must be one of --out, --only, --quick, --full, --limits, --again, --build, --bundle, --plots, --help" ;;
     esac
     shift
-    ;;
-  --quick | --full)
-    [ -z "$size" ] || [ "$size" = "${1#--}" ] || usage "$1: excludes --$size"
-    size=${1#--}
-    ;;
-  --again) again=1 ;;
-  --help | -h) help ;;
-  *) usage "$1: must be one of --out, --only, --quick, --full, --limits, --again, --build, --bundle, --plots, --help" ;;
+  done
+  case $parts in *[!abcde]*) usage "--only $parts: must be letters of abcde" ;; esac
+  case $factor in
+  *[!0-9.]* | *.*.* | .) valid=0 ;;
+  *) valid=$(awk "BEGIN { print ($factor >= 0.01 && $factor <= 60) }") ;;
   esac
-  shift
-done
-case $parts in *[!abcde]*) usage "--only $parts: must be letters of abcde" ;; esac
-case $factor in [1-9] | [1-5][0-9] | 60) ;; *) usage "--limits $factor: must be a whole number from 1 to 60" ;; esac
+  [ "$valid" = 1 ] || usage "--limits $factor: must be a number from 0.01 to 60"
 
-# shellcheck source=tests/gpu/places.sh
-. "$here/gpu/places.sh"
-# shellcheck source=tests/gpu/plots.sh
-. "$here/gpu/plots.sh"
-case $command in
-plots) draw_plots "$out" && exit ;;
-bundle)
-  # shellcheck source=tests/gpu/bundle.sh
-  . "$here/gpu/bundle.sh"
-  make_bundle
-  exit
-  ;;
-esac
-# shellcheck source=tests/gpu/steps.sh
-. "$here/gpu/steps.sh"
-# shellcheck source=tests/gpu/parts.sh
-. "$here/gpu/parts.sh"
+  # shellcheck source=tests/gpu/places.sh
+  . "$here/gpu/places.sh"
+  # shellcheck source=tests/gpu/plots.sh
+  . "$here/gpu/plots.sh"
+  case $command in
+  plots) draw_plots "$out" && exit ;;
+  bundle)
+    # shellcheck source=tests/gpu/bundle.sh
+    . "$here/gpu/bundle.sh"
+    make_bundle
+    exit
+    ;;
+  esac
+  # shellcheck source=tests/gpu/steps.sh
+  . "$here/gpu/steps.sh"
+  # shellcheck source=tests/gpu/parts.sh
+  . "$here/gpu/parts.sh"
 
-find_places
-open_folder
-part_who # which the report needs
-case $parts in *d*) part_goals ;; esac
-case $parts in *b*) part_tests ;; esac
-case $parts in *c*) part_pictures ;; esac
-case $parts in *d*) part_time ;; esac
-case $parts in *e*) part_motion ;; esac
-close_folder
+  find_places
+  open_folder
+  part_who # which the report needs
+  case $parts in *d*) part_goals ;; esac
+  case $parts in *b*) part_tests ;; esac
+  case $parts in *c*) part_pictures ;; esac
+  case $parts in *d*) part_time ;; esac
+  case $parts in *e*) part_motion ;; esac
+  close_folder
+}
+main "$@"
+exit

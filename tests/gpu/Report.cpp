@@ -118,10 +118,23 @@ private:
   static void add(const fs::path& folder, Json& json) {
     const std::string name = folder.filename();
     const auto has = [&](const char* file) { return fs::exists(folder / file); };
-    if (has("cases.json")) json["tests"][name] = regress::readJson(folder / "cases.json");
-    if (has("programs.json")) json["programs"] = regress::readJson(folder / "programs.json");
-    if (has("results")) json["pictures"] = picturesOf(folder);
-    if (has("bench.json")) addBench(regress::readJson(folder / "bench.json"), json["bench"]);
+    const auto read = [&](const char* file) { return regress::readJson(folder / file); }; // before anything is added
+    if (has("cases.json")) {
+      const Json cases = read("cases.json");
+      json["tests"][name] = cases;
+    }
+    if (has("programs.json")) {
+      const Json programs = read("programs.json");
+      json["programs"] = programs;
+    }
+    if (has("bench.json")) {
+      const Json bench = read("bench.json");
+      addBench(bench, json["bench"]);
+    }
+    if (has("results")) {
+      const Json pictures = picturesOf(folder);
+      json["pictures"] = pictures;
+    }
     if (has("sequence.csv"))
       if (const Json sequence = sequenceOf(folder / "sequence.csv", name); !sequence.is_null())
         json["sequences"].push_back(sequence);

@@ -51,7 +51,7 @@ part_tests() {
   step b-programs "Every program, compiled" 40 TERM env MESA_SHADER_CACHE_DISABLE=true __GL_SHADER_DISK_CACHE=0 \
     "$bin/tyndall-gpu" programs --out "$folder/b-programs/programs.json"
   step b-accuracy "exact against map-exact, every scene" 45 TERM "$bin/tyndall-gpu" cases "$bin/tyndall-render-tests" \
-    --select "exact equals map-exact on every sample scene*" --case-seconds $((45 * factor)) --out "$folder/b-accuracy"
+    --select "exact equals map-exact on every sample scene*" --case-seconds "$(scaled 45)" --out "$folder/b-accuracy"
   write_report
 }
 

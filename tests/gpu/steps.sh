@@ -2,6 +2,7 @@
 # The report's folder, and steps with limits of time whose results it keeps: parts/NAME/status.json, written last.
 
 now() { date +%s; }
+scaled() { awk "BEGIN { printf \"%d\", $1 * $factor + 0.5 }"; } # a limit, as the user has it
 
 # put FILE TEXT: all of it, or a line and the end.
 put() {
@@ -75,7 +76,7 @@ refuse_others() {
 }
 
 # begin_part SECONDS: the steps that follow share them.
-begin_part() { part_end=$(($(now) + $1 * factor)); }
+begin_part() { part_end=$(($(now) + $(scaled "$1"))); }
 
 # run_limited SECONDS LOG SIGNAL COMMAND...: its exit status in status; 124 or 137 if it was ended.
 run_limited() {
@@ -91,7 +92,7 @@ run_limited() {
 
 # step NAME TITLE SECONDS SIGNAL COMMAND...: runs it in parts/NAME unless there is a result, and keeps what became of it.
 step() {
-  name=$1 title=$2 limit=$(($3 * factor)) signal=$4 at=$folder/$1
+  name=$1 title=$2 limit=$(scaled "$3") signal=$4 at=$folder/$1
   shift 4
   if is_settled; then
     say "$title: kept"
@@ -100,7 +101,7 @@ step() {
   mkdir -p "$at"
   left=$((part_end - $(now)))
   [ "$left" -ge "$limit" ] || limit=$left
-  if [ "$limit" -lt 2 ]; then
+  if [ "$limit" -lt 1 ]; then
     put "$at/status.json" "{\"title\": \"$title\", \"result\": \"not begun\"}"
     say "$title: not begun, the time of its part is over"
     return 0
