@@ -32,6 +32,9 @@ libraries_of() {
     grep -Ev '/(ld-linux|libc|libm|libdl|libpthread|librt|libresolv|libGL|libGLX|libEGL|libOpenGL|libGLdispatch|libOSMesa)[-.0-9a-zA-Z_]*\.so' || :
 }
 
+# The newest version of the C library that files ask for.
+newest_libc() { objdump -T "$@" | sed -n 's/.*GLIBC_\([0-9.]*\).*/\1/p' | sort -uV | tail -n 1; }
+
 gather_tools() {
   mkdir -p "$payload/bin" "$payload/lib" "$payload/shared" "$payload/glvnd"
   for tool in tyndall-gpu tyndall-bench tyndall-regress tyndall-gl-tests tyndall-render-tests tyndall-sequence tyndall-avsm-bench; do
@@ -53,8 +56,7 @@ gather_tools() {
     [ -z "$file" ] || cp -L "$file" "$payload/glvnd/"
   done
   [ -e "$payload/glvnd/libGLdispatch.so.0" ] || rm -rf "$payload/glvnd"
-  newest=$(objdump -T "$payload"/bin/* "$payload"/lib/* "$payload"/shared/* | grep -o 'GLIBC_[0-9.]*' | sort -uV | tail -n 1)
-  echo "glibc ${newest#GLIBC_} or newer" >"$payload/needs"
+  echo "glibc $(newest_libc "$payload"/bin/* "$payload"/lib/*) or newer ($(newest_libc "$payload"/shared/*) where it has no C++ library as new)" >"$payload/needs"
 }
 
 gather_data() {
@@ -86,6 +88,6 @@ OpenGL 4.3 or later with EGL, 300 MB of \${TMPDIR:-/tmp} while it runs, and noth
 
     sh gpu.sh --out DIR        at most eight minutes; DIR then has at most eight files, the first to read is report.md
 
-sh gpu.sh --help lists more. Debian 12 and Ubuntu 22.04 have such a C library, and all that is newer.
+sh gpu.sh --help lists more. Debian 12 has such a C library, as has all that is newer.
 README
 }
