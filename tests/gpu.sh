@@ -22,7 +22,7 @@ usage() {
 help() {
   cat <<'HELP'
 sh gpu.sh [options]            measures, and writes a report into a folder
-  --out DIR        the folder (default: gpu-report); one that holds a report of the same commit and driver is gone on with
+  --out DIR        the folder ; one that holds a report of the same commit and driver is gone on with
   --only LETTERS   of the parts: a who (always), b tests, c pictures, d run time, e reuse, smoke and hair (default abcde)
   --quick          small pictures, as a software driver gets anyway
   --full           the sizes of a GPU, also for a software driver
@@ -38,7 +38,7 @@ HELP
 
 # A function: the script may change while it runs.
 main() {
-  out=gpu-report parts=abcde size='' factor=1 again='' build='' command=run bundle=''
+  out=out/gpu parts=abcde size='' factor=1 again='' build='' command=run bundle=''
   while [ $# -gt 0 ]; do
     case $1 in
     --out | --only | --limits | --build | --bundle | --plots)

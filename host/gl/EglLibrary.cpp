@@ -1,5 +1,6 @@
 #include "gl/EglLibrary.h"
 
+#include "gl/Driver.h"
 #include "gl/EglDevices.h"
 #include "gl/Library.h"
 #include "scene/Error.h"
@@ -100,9 +101,33 @@ public:
     return true;
   }
 
+  /// The same, unless the driver turns out to be software: a device without 3D has one.
+  bool takeGpu(EGLDisplay display) {
+    if (!take(display)) return false;
+    const std::string renderer = rendererOf(display);
+    if (renderer.empty()) return rejectOpen(display, "gives no context of OpenGL 3.3");
+    if (host::isSoftware(renderer)) return rejectOpen(display, "draws in software");
+    return true;
+  }
+
   const std::string& reason() const { return reason_; } ///< against the last display
 
 private:
+  std::string rendererOf(EGLDisplay display) const {
+    constexpr unsigned kRenderer = 0x1F01; // GL_RENDERER
+    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3, EGL_NONE};
+    EGLContext context = egl_.createContext(display, egl_.config, EGL_NO_CONTEXT, attributes);
+    if (context == EGL_NO_CONTEXT) return {};
+    const auto getString = reinterpret_cast<const unsigned char* (*)(unsigned)>(egl_.getProcAddress("glGetString"));
+    std::string renderer;
+    if (getString && egl_.makeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
+      const unsigned char* text = getString(kRenderer);
+      renderer = text ? reinterpret_cast<const char*>(text) : "";
+      egl_.makeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
+    egl_.destroyContext(display, context);
+    return renderer;
+  }
   bool reject(const char* reason) {
     reason_ = reason;
     return false;
@@ -149,7 +174,7 @@ private:
     const std::vector<EglDevice> devices = client.devices();
     for (const std::size_t i : devicesToTry(devices, wanted)) {
       const std::string name = "device " + std::to_string(i) + ": " + devices[i].name;
-      if (open(client.displayOf(i), name)) return true;
+      if (open(client.displayOf(i), name, wanted.empty())) return true;
       if (!wanted.empty())
         throw Error(std::string("context egl: ") + kEglDeviceVariable + "=" + wanted + ": " + name + " " +
                     choice_.reason());
@@ -171,8 +196,8 @@ private:
     return false;
   }
 
-  bool open(EGLDisplay display, const std::string& name) {
-    if (!choice_.take(display)) return false;
+  bool open(EGLDisplay display, const std::string& name, bool asGpu = false) {
+    if (!(asGpu ? choice_.takeGpu(display) : choice_.take(display))) return false;
     displayName = name;
     return true;
   }

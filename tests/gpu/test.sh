@@ -1,9 +1,9 @@
 #!/bin/sh
 # gpu.sh as a user meets it, with tools that hang, fail or fill the disk in the place of those that measure.
-#   test.sh BIN_FOLDER
+#   test.sh BIN_FOLDER [FOLDER_OF_FAKE_EGL]
 # shellcheck disable=SC2030,SC2031 # what is set for one command in a subshell is meant to end there
 set -eu
-real=$(cd "$1" && pwd)
+real=$(cd "$1" && pwd) fake_egl=${2:+$(cd "$2" && pwd)}
 gpu=$(cd "$(dirname "$0")/.." && pwd)/gpu.sh
 
 work=$(mktemp -d "${TMPDIR:-/tmp}/tyndall-gpu-test-XXXXXX")
@@ -126,6 +126,26 @@ require test ! -e without/report.json
 say "a device that is not there"
 TYNDALL_EGL_DEVICE=Voodoo refused 1 "context egl: TYNDALL_EGL_DEVICE=Voodoo: must be the number or a part of the name" \
   sh "$gpu" --build "$real/.." --out without --only a
+
+# The devices of FakeEgl.cpp: 0 draws in software unless FAKE_RENDERER is set, 1 does not open.
+if [ -n "$fake_egl" ]; then
+  say "the GPU is taken, wherever it is in EGL's list, and nothing else for one"
+  who() { LD_LIBRARY_PATH=$fake_egl "$real/tyndall-gpu" who --out who.json; }
+  who 2>who.err
+  has who.json '"display": "surfaceless"'
+  has who.err "context egl: device 0: /dev/dri/card0 draws in software"
+  has who.err "context egl: device 1: /dev/dri/card1 cannot be initialised"
+  (export FAKE_RENDERER="Card 7" && who 2>who.err)
+  has who.json '"display": "device 0: /dev/dri/card0"'
+  has who.json '"software": false'
+  require test ! -s who.err
+  (export TYNDALL_EGL_DEVICE=card0 && who)
+  has who.json '"display": "device 0: /dev/dri/card0"'
+  has who.json '"software": true'
+  (export TYNDALL_EGL_DEVICE=1 && refused 1 "TYNDALL_EGL_DEVICE=1: device 1: /dev/dri/card1 cannot be initialised" who)
+else
+  echo "SKIPPED: the choice among EGL's devices: no libEGL to wrap" >&2
+fi
 
 say "a part that hangs is ended at its limit, and the rest goes on"
 touch hang
