@@ -37,6 +37,7 @@ public:
 
   std::vector<EglDevice> devices() const {
     std::vector<EglDevice> all;
+    all.reserve(handles_.size());
     for (EGLDeviceEXT handle : handles_)
       all.push_back(describe(handle));
     return all;
@@ -173,12 +174,13 @@ private:
   bool openDevice(const Client& client, const std::string& wanted) {
     const std::vector<EglDevice> devices = client.devices();
     for (const std::size_t i : devicesToTry(devices, wanted)) {
-      const std::string name = "device " + std::to_string(i) + ": " + devices[i].name;
+      const std::string name = nameOf(i, devices);
       if (open(client.displayOf(i), name, wanted.empty())) return true;
-      if (!wanted.empty())
-        throw Error(std::string("context egl: ") + kEglDeviceVariable + "=" + wanted + ": " + name + " " +
-                    choice_.reason());
-      say("context egl: " + name + " " + choice_.reason());
+      std::string fault = "context egl: ";
+      if (!wanted.empty()) fault += std::string(kEglDeviceVariable) + "=" + wanted + ": ";
+      fault += name + " " + choice_.reason();
+      if (!wanted.empty()) throw Error(fault);
+      say(fault);
     }
     return false;
   }
@@ -191,9 +193,12 @@ private:
   bool openSoftware(const Client& client) {
     const std::vector<EglDevice> devices = client.devices();
     for (std::size_t i = 0; i < devices.size(); ++i)
-      if (devices[i].isSoftware && open(client.displayOf(i), "device " + std::to_string(i) + ": " + devices[i].name))
-        return true;
+      if (devices[i].isSoftware && open(client.displayOf(i), nameOf(i, devices))) return true;
     return false;
+  }
+
+  static std::string nameOf(std::size_t i, const std::vector<EglDevice>& devices) {
+    return "device " + std::to_string(i) + ": " + devices[i].name;
   }
 
   bool open(EGLDisplay display, const std::string& name, bool asGpu = false) {

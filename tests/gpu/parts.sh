@@ -2,7 +2,7 @@
 # The parts of a report, each with its limit of time, what tells most first: eight minutes together.
 
 jobs=$(nproc 2>/dev/null || echo 1)
-[ "$jobs" -le 8 ] || jobs=8
+[ "$jobs" -le 12 ] || jobs=12
 ours=exact,high,balanced,performance
 
 # Sizes of pictures and maps: a GPU's, or small ones.
@@ -48,7 +48,7 @@ part_goals() {
 part_tests() {
   begin_part 130
   step b-tests "Tests, each by itself" 75 TERM "$bin/tyndall-gpu" cases "$bin/tyndall-gl-tests" --out "$folder/b-tests" --jobs "$jobs"
-  step b-programs "Every program, compiled" 40 TERM env MESA_SHADER_CACHE_DISABLE=true __GL_SHADER_DISK_CACHE=0 \
+  step b-programs "Every program, compiled" 60 TERM env MESA_SHADER_CACHE_DISABLE=true __GL_SHADER_DISK_CACHE=0 \
     "$bin/tyndall-gpu" programs --out "$folder/b-programs/programs.json"
   step b-accuracy "exact against map-exact, every scene" 45 TERM "$bin/tyndall-gpu" cases "$bin/tyndall-render-tests" \
     --select "exact equals map-exact on every sample scene*" --case-seconds "$(scaled 45)" --out "$folder/b-accuracy"

@@ -42,6 +42,8 @@ find_places() {
 
 unpack_bundle() {
   [ -z "$build" ] || usage "--build $build: this is a bundle, which has its own"
+  LD_LIBRARY_PATH="$here/xz" "$here/xz/xz" --version >"$scratch/xz" 2>&1 ||
+    stop "the bundle cannot run here: $(tail -n 1 "$scratch/xz"); its README says what it needs"
   say "Unpacking the bundle into $scratch"
   LD_LIBRARY_PATH="$here/xz" "$here/xz/xz" -dc "$here/payload.tar.xz" | tar -xf - -C "$scratch" ||
     stop "$scratch: the bundle cannot be unpacked there; is the disk full? TMPDIR names another folder"
