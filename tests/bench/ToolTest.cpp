@@ -1,4 +1,5 @@
 // tyndall-bench as a user meets it: one clear line for each wrong input, and references that survive a damaged cache.
+#include "Plan.h"
 #include "ReferenceCache.h"
 #include "support/Catch.h"
 
@@ -152,6 +153,39 @@ TEST_CASE("every pass that ran has a floor, and only those, and visits are count
     CHECK(floors == ran);
     CHECK(ran.size() >= 11);
   }
+}
+
+TEST_CASE("runs end when they took long; GL's own time is beside each, and what render() takes of the processor") {
+  const Folder folder;
+  const ToolResult result = runTool("--scenes stage --sizes 96x64 --shadow-sizes 128 --techniques exact,high --runs 20 "
+                                    "--run-seconds 0.0001 --calls --out " +
+                                    folder.path().string());
+  INFO(result.output);
+  REQUIRE(result.exitCode == 0);
+  CHECK(result.output.find("the processor in render()") != std::string::npos);
+  for (const nlohmann::json& r : readJson(folder.path() / "bench.json").at("results")) {
+    CAPTURE(r.at("technique"));
+    CHECK(r.at("ms").at("runs").size() == 3);
+    REQUIRE(r.at("gpu_ms").at("runs").size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+      CHECK(r.at("gpu_ms").at("runs")[i] > 0);
+      CHECK(r.at("gpu_ms").at("runs")[i] <= r.at("ms").at("runs")[i]);
+    }
+    REQUIRE(r.contains("calls") == (r.at("group") == "ours"));
+    if (!r.contains("calls")) continue;
+    CHECK(r.at("calls").at("lights") == 4);
+    for (const char* mode : {"restore", "leave"}) {
+      CHECK(r.at("calls").at(mode).at("ms") > 0);
+      CHECK(r.at("calls").at(mode).at("processor_ms") > 0);
+    }
+  }
+}
+
+TEST_CASE("the scaling series are measured in the context that is asked for") {
+  const std::vector<bench::Setup> setups = bench::planScaling(host::ContextKind::Egl);
+  CHECK(setups.size() > 10);
+  for (const bench::Setup& setup : setups)
+    CHECK(setup.context == host::ContextKind::Egl);
 }
 
 TEST_CASE("the report's tables hold the numbers of a run") {

@@ -137,7 +137,8 @@ private:
   void readEarlier() {
     const fs::path file = options_.out / "cases.json";
     if (!fs::exists(file)) return;
-    for (const Json& one : regress::readJson(file).at("cases"))
+    const Json earlier = regress::readJson(file);
+    for (const Json& one : earlier.at("cases"))
       if (one.at("result") != "killed") results_[one.at("name")] = one;
   }
 

@@ -165,6 +165,40 @@ has out.log "Reuse: pendulum: done"
 has out.log "Smoke and hair: smoke: kept"
 has hung/report.md "| pendulum.glb, 8x8 | 5 | 8 | 2 | 4 | 4× | 2× | 50 % | 0 |"
 
+say "a case that fails, crashes or hangs takes no other with it, and is told with its first lines"
+cat >cases <<STUB
+#!/bin/sh
+case "\$1 \$2" in
+"--list-test-names-only ~[slow]") printf 'passes\nfails, with a comma\ncrashes\nhangs\n' && exit 4 ;;
+"--list-test-names-only [slow]") echo slow && exit 1 ;;
+esac
+echo "\$1" >>"$work/called"
+case \$1 in
+passes | slow) echo '<testsuites><testsuite name="t" tests="1"><testcase name="p"/></testsuite></testsuites>' >"\$5" ;;
+'fails\, with a comma')
+  echo '<testsuites><testsuite name="t" tests="1"><testcase name="f"><failure message="m">1 &lt; 0' >"\$5"
+  echo 'at Some.cpp:3</failure></testcase></testsuite></testsuites>' >>"\$5"
+  exit 1
+  ;;
+crashes) kill -SEGV \$\$ ;;
+hangs) exec sleep 100 ;;
+esac
+STUB
+chmod +x cases
+: >called
+cases() { "$real/tyndall-gpu" cases "$work/cases" --out cased --jobs 3 --case-seconds 1; }
+require cases
+tr -d '\n' <cased/cases.json >flat
+has flat '"name": "passes",      "result": "passed"'
+has flat '"name": "fails, with a comma",      "result": "failed",      "message": "1 < 0\nat Some.cpp:3\n"'
+has flat '"name": "crashes",      "result": "crashed",      "message": "ended by signal 11'
+has flat '"name": "hangs",      "result": "killed",      "message": "took more than 1 s'
+has flat '"name": "slow",      "result": "passed"'
+require test "$(grep -c '<testsuite ' cased/junit.xml)" -eq 5
+: >called
+require cases
+require test "$(cat called)" = hangs
+
 say "few files, all of them whole"
 require test "$(find hung -type f | grep -cv '\.png$')" -eq 3
 require test -z "$(find hung -name '*new*')"
