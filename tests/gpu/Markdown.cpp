@@ -141,7 +141,9 @@ std::string picturesOf(const Json& report, bool hasSheet) {
       "## Pictures against references\n\nReferences: " + recorder +
       ". Differences are relative to the mean of the reference; verdicts by the samples' tolerances, which "
       "were measured among software drivers.\n\n";
-  if (hasSheet) text += "![wanted, got, difference, three cases in a row](pictures.png)\n\n";
+  if (hasSheet)
+    text += "![wanted, got, difference, three cases in a row](pictures.png)\n\nThree cases in a row, of each what was "
+            "wanted, what this driver drew, and the difference: none where they are equal.\n\n";
   return text + table.text();
 }
 
@@ -169,9 +171,11 @@ std::string sequencesOf(const Json& report) {
     const double full = medianOf(columns["full_ms"]), objects = medianOf(columns["objects_ms"]),
                  detected = medianOf(columns["detect_ms"]);
     const auto gain = [&](double ms) { return ms > 0 ? number(full / ms) + "×" : "-"; };
+    if (frames.size() <= kWarmUp) continue;
     table.add({sequence.at("what"), std::to_string(frames.size()), number(full), number(objects), number(detected),
                gain(objects), gain(detected), percent(medianOf(columns["objects_share"])), number(error)});
   }
+  if (table.empty()) return {};
   return "## Temporal reuse\n\nMedians of frames after the third; the greatest difference from frames in full, as a "
          "part "
          "of the mean.\n\n" +

@@ -73,7 +73,10 @@ Json readCsv(const std::vector<std::string>& lines) {
 Json sequenceOf(const fs::path& file, const std::string& name) {
   std::vector<std::string> lines = linesOf(file);
   if (lines.size() < 2 || lines[0].rfind("# ", 0) != 0) return nullptr;
-  const std::string what = lines[0].substr(2);
+  // What is drawn; the driver is who.json's.
+  const std::size_t profile = lines[0].find(", profile ");
+  const std::size_t end = profile == std::string::npos ? profile : lines[0].find(',', profile + 1);
+  const std::string what = lines[0].substr(2, end == std::string::npos ? end : end - 2);
   lines.erase(lines.begin());
   return {{"name", name}, {"what", what}, {"frames", readCsv(lines)}};
 }

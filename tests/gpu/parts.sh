@@ -8,9 +8,9 @@ ours=exact,high,balanced,performance
 # Sizes of pictures and maps: a GPU's, or small ones.
 set_sizes() {
   if [ "$size" = full ]; then
-    goal_size=2560x1600 goal_map=4096 more_sizes="1920x1080 3840x2160" sequence_size=1920x1080 frames=0-71 avsm_runs=10
+    goal_size=2560x1600 goal_map=4096 more_sizes="1920x1080 3840x2160" sequence_size=1920x1080 frames=0-71 avsm_size=256 avsm_runs=10
   else
-    goal_size=640x400 goal_map=1024 more_sizes="480x270 960x540" sequence_size=320x180 frames=0-11 avsm_runs=2
+    goal_size=640x400 goal_map=1024 more_sizes="480x270 960x540" sequence_size=320x180 frames=0-11 avsm_size=64 avsm_runs=2
   fi
 }
 
@@ -101,10 +101,11 @@ part_motion() {
   for scene in pendulum orrery sweep; do
     # shellcheck disable=SC2016 # the inner shell expands it
     step "e-reuse-$scene" "Reuse: $scene" 12 TERM sh -c 'to=$1 && shift && exec "$@" >"$to"' sh "$folder/e-reuse-$scene/sequence.csv" \
-      "$bin/tyndall-sequence" "$scenes/$scene.glb" --frames $frames --size "$sequence_size" --context egl
+      "$bin/tyndall-sequence" "$scenes/$scene.glb" --frames $frames --size "$sequence_size" \
+      --shadow-size "$goal_map" --context egl
   done
   for scene in smoke hair; do
-    step "e-avsm-$scene" "Smoke and hair: $scene" 12 TERM "$bin/tyndall-avsm-bench" --scenes $scene --runs $avsm_runs \
-      --context egl --csv "$folder/e-avsm-$scene/avsm.csv"
+    step "e-avsm-$scene" "Smoke and hair: $scene" 12 TERM "$bin/tyndall-avsm-bench" --scenes $scene --size $avsm_size \
+      --runs $avsm_runs --context egl --csv "$folder/e-avsm-$scene/avsm.csv"
   done
 }
