@@ -3,6 +3,7 @@
 #include "Memory.h"
 #include "render/SceneAnswers.h"
 
+#include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
 #include <gl/Driver.h>
@@ -143,6 +144,7 @@ private:
 
 struct Case {
   Result result;
+  Result warmUp; ///< the time of its warm-up, which stands in where a run was ended before any other
   std::unique_ptr<Runner> runner;
   bool runs() const { return runner && result.failed.empty() && result.skipped.empty(); }
 };
@@ -199,6 +201,7 @@ public:
       }
     std::vector<Result> results;
     for (Case& c : cases_) {
+      if (stopped() && c.runs() && c.result.milliseconds.empty()) takeWarmUp(c);
       finish(c);
       // What Ctrl-C left without a single time is left out; how many runs the others have is in the results.
       const bool untimed = c.runs() && c.result.milliseconds.empty();
@@ -242,9 +245,20 @@ private:
       for (const auto& [name, truth] : truths_)
         c.result.errors[name] = reference::compare(image, truth);
       if (c.result.errors["exact"].nonFinite > 0) throw host::Error("the picture has a NaN or an infinity");
-      Result unused;
-      if (time.count() < kCompilingMatters) stage_->time(*c.runner, unused);
+      if (time.count() < kCompilingMatters) stage_->time(*c.runner, c.warmUp);
     });
+  }
+
+  static void takeWarmUp(Case& c) {
+    c.result.milliseconds = c.warmUp.milliseconds;
+    c.result.gpuMilliseconds = c.warmUp.gpuMilliseconds;
+  }
+
+  /// As many as fit into the time of a technique's runs.
+  int runsOfPasses(const Result& result) const {
+    constexpr double kLeast = 1;
+    const double fitting = 1000 * options_.secondsOfRuns / result.median();
+    return static_cast<int>(std::clamp<double>(fitting, kLeast, options_.runs));
   }
 
   void finish(Case& c) {
@@ -257,11 +271,11 @@ private:
       return;
     guarded(c.result, [&] {
       c.result.counts = c.runner->counts(stage_->composited());
-      const int runs = host::isSoftware(stage_->driver()) ? 1 : options_.runs; // a GPU's times are small and differ
+      const int runs = host::isSoftware(stage_->driver()) ? 1 : runsOfPasses(c.result); // a GPU's are small and differ
       if (!addFloors(c)) c.result.passes = c.runner->timedPasses(stage_->composited(), runs, [] {});
       if (options_.calls && c.result.technique.group == Group::Ours)
         c.result.calls =
-            callTimes(settingsFor(c.result.technique), stage_->loader(), stage_->composited(), options_.runs);
+            callTimes(settingsFor(c.result.technique), stage_->loader(), stage_->composited(), runsOfPasses(c.result));
     });
   }
 
@@ -272,7 +286,7 @@ private:
     frame.settings = settingsFor(c.result.technique);
     if (!reasonAgainstFloors(frame).empty()) return false;
     Floors floors(frame, *c.result.counts);
-    c.result.passes = c.runner->timedPasses(frame, options_.runs, [&floors] { floors.run(); });
+    c.result.passes = c.runner->timedPasses(frame, runsOfPasses(c.result), [&floors] { floors.run(); });
     c.result.floors = floors.beside(c.result.passes);
     return true;
   }

@@ -45,20 +45,25 @@ std::string headOf(const Json& who) {
 
 std::string partsOf(const Json& report) {
   Table table({"part", "what", "result", "seconds", "of at most"});
-  std::string logs;
+  std::string logs, unbegun;
   for (const Json& part : report.at("parts")) {
     const std::string name = part.at("name"), result = part.value("result", "?");
+    if (result == "not begun") {
+      unbegun += (unbegun.empty() ? "`" : "`, `") + name;
+      continue;
+    }
     table.add({name, part.value("title", ""), result, number(part.value("seconds", Json())),
                number(part.value("limit", Json()))});
     if (part.contains("damaged"))
       logs += fmt::format("\n`{}` left a damaged file: {}\n", name, part.at("damaged").get<std::string>());
-    if (result == "done" || result == "not begun" || !part.contains("log") || part.at("log").empty()) continue;
+    if (result == "done" || !part.contains("log") || part.at("log").empty()) continue;
     logs += fmt::format("\n`{}` {}; the last it said:\n\n```\n", name, result);
     for (const Json& line : part.at("log"))
       logs += line.get<std::string>() + "\n";
     logs += "```\n";
   }
-  return "## What ran\n\n" + table.text() + logs + "\n";
+  if (!unbegun.empty()) unbegun = "Not begun, since the time of their part was over: " + unbegun + "`.\n";
+  return "## What ran\n\n" + table.text() + unbegun + logs + "\n";
 }
 
 std::string testsOf(const std::string& name, const Json& tests) {

@@ -5,12 +5,14 @@ jobs=$(nproc 2>/dev/null || echo 1)
 [ "$jobs" -le 12 ] || jobs=12
 ours=exact,high,balanced,performance
 
-# Sizes of pictures and maps: a GPU's, or small ones.
+# Sizes of pictures and maps, and rivals: a GPU's, or small ones and few.
 set_sizes() {
+  rivals=fixed:16,fixed:64,half:16,half:64,froxels:64,epipolar-march:512,tree:512,pyramid
   if [ "$size" = full ]; then
+    rivals=$rivals,fixed:256,half:256,froxels:128,epipolar-march:1024,lowrank:4,volumes:1024,incremental:512
     goal_size=2560x1600 goal_map=4096 more_sizes="1920x1080 3840x2160" sequence_size=1920x1080 frames=0-71 avsm_size=256 avsm_runs=10
   else
-    goal_size=640x400 goal_map=1024 more_sizes="480x270 960x540" sequence_size=320x180 frames=0-11 avsm_size=64 avsm_runs=2
+    goal_size=320x200 goal_map=1024 more_sizes="240x150 480x300" sequence_size=320x180 frames=0-11 avsm_size=64 avsm_runs=2
   fi
 }
 
@@ -38,9 +40,9 @@ part_goals() {
   set_sizes
   begin_part 80
   bench d-01-nave "Goals: nave $goal_size, map $goal_map" 45 --scenes nave --techniques $ours --sizes "$goal_size" \
-    --shadow-sizes "$goal_map" --floors --calls --run-seconds 8
+    --shadow-sizes "$goal_map" --floors --calls --run-seconds 3
   bench d-02-stage-spot "Goals: one spot of stage $goal_size, map $goal_map" 40 --scenes stage --lights 1 --techniques $ours \
-    --sizes "$goal_size" --shadow-sizes "$goal_map" --calls --run-seconds 8
+    --sizes "$goal_size" --shadow-sizes "$goal_map" --calls --run-seconds 3
   write_report
 }
 
@@ -78,8 +80,6 @@ part_pictures() {
 part_time() {
   set_sizes
   begin_part 150
-  rivals=fixed:16,fixed:64,fixed:256,half:16,half:64,half:256,froxels:64,froxels:128,epipolar-march:512,epipolar-march:1024
-  rivals=$rivals,tree:512,lowrank:4,pyramid,volumes:1024,incremental:512
   for scene in nave stage nave-glass forest terrain cage concert projector; do
     bench "d-10-$scene" "Run time: $scene $goal_size, map $goal_map" 30 --scenes $scene --techniques $ours,$rivals \
       --sizes "$goal_size" --shadow-sizes "$goal_map" --calls --run-seconds 0.4

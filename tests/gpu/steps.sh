@@ -76,7 +76,7 @@ refuse_others() {
 }
 
 # begin_part SECONDS: the steps that follow share them.
-begin_part() { part_end=$(($(now) + $(scaled "$1"))); }
+begin_part() { part_end=$(($(now) + $(scaled "$1"))) over=''; }
 
 # run_limited SECONDS LOG SIGNAL COMMAND...: its exit status in status; 124 or 137 if it was ended.
 run_limited() {
@@ -103,7 +103,8 @@ step() {
   [ "$left" -ge "$limit" ] || limit=$left
   if [ "$limit" -lt 1 ]; then
     put "$at/status.json" "{\"title\": \"$title\", \"result\": \"not begun\"}"
-    say "$title: not begun, the time of its part is over"
+    [ -n "$over" ] || say "$title: not begun, nor what follows: the time of its part is over"
+    over=1
     return 0
   fi
   rm -f "$at/status.json"
