@@ -144,30 +144,47 @@ std::string equalErrorOf(const Json& bench) {
   return table.empty() ? "" : "## Speed at equal error\n\n" + table.text();
 }
 
+namespace {
+
+/// Of one result; floors only where there are some.
+std::string passTable(const Json& result) {
+  const Json floorsOfAll = result.value("floors", Json());
+  const bool hasFloors = floorsOfAll.is_object();
+  std::map<std::string, Json> floors;
+  if (hasFloors)
+    for (const Json& pass : floorsOfAll.at("passes"))
+      floors["light 0 " + pass.at("name").get<std::string>()] = pass.at("floor_ms");
+  std::vector<std::string> columns = {"pass", "ms"};
+  if (hasFloors) columns.emplace_back("ms if it only read and wrote its bytes");
+  Table table(columns);
+  const auto add = [&](const std::string& name, double ms, const Json& floor) {
+    std::vector<std::string> row = {name, number(ms)};
+    if (hasFloors) row.push_back(number(floor));
+    table.add(row);
+  };
+  double sum = 0;
+  for (const Json& pass : result.at("passes")) {
+    if (!pass.contains("ms")) continue;
+    const std::string name = pass.at("name");
+    sum += pass.at("ms").get<double>();
+    add(name, pass.at("ms"), floors.count(name) == 1 ? floors.at(name) : Json());
+  }
+  add("sum", sum, hasFloors ? floorsOfAll.at("floor_ms") : Json());
+  return table.text();
+}
+
+} // namespace
+
 std::string passesOf(const Json& results) {
   std::string text;
-  for (const auto& [setup, all] : setupsOf(results)) {
+  for (const auto& [setup, all] : setupsOf(results))
     for (const char* name : {"high", "balanced", "performance"}) {
       const Json* ours = find(all, name);
-      if (!ours || !isKey(*ours) || !ours->contains("passes")) continue;
-      std::map<std::string, Json> floors;
-      if (ours->contains("floors"))
-        for (const Json& pass : ours->at("floors").at("passes"))
-          floors["light 0 " + pass.at("name").get<std::string>()] = pass.at("floor_ms");
-      Table table({"pass", "ms", "ms if it only read and wrote its bytes"});
-      double sum = 0;
-      for (const Json& pass : ours->at("passes")) {
-        if (!pass.contains("ms")) continue;
-        sum += pass.at("ms").get<double>();
-        const auto floor = floors.find(pass.at("name"));
-        table.add({pass.at("name"), number(pass.at("ms")), floor == floors.end() ? "-" : number(floor->second)});
-      }
-      table.add({"sum", number(sum), ours->contains("floors") ? number(ours->at("floors").at("floor_ms")) : "-"});
-      text += fmt::format("### {}, {}\n\n", setup, name) + table.text();
+      if (!ours || !isKey(*ours) || ours->value("passes", Json::array()).empty()) continue;
+      text += fmt::format("### {}, {}\n\n", setup, name) + passTable(*ours);
     }
-  }
-  return text.empty() ? ""
-                      : "## Passes\n\nMedians; of a GPU by timer queries, of a software driver by glFinish.\n\n" + text;
+  if (text.empty()) return {};
+  return "## Passes\n\nMedians; of a GPU by timer queries, of a software driver by glFinish.\n\n" + text;
 }
 
 std::string callsOf(const Json& results) {

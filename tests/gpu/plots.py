@@ -21,6 +21,7 @@ from plot import draw_curve, draw_passes, draw_series, timed  # noqa: E402
 from report import PROFILES, setup_of  # noqa: E402
 
 COLUMNS = 3
+RIVALS = ("shipping", "research")
 WAYS = [("full_ms", "in full", "black"), ("objects_ms", "objects named", "tab:blue"), ("detect_ms", "detected", "tab:orange")]
 WARM_UP = 3  # frames that compile, and fill what is kept
 
@@ -46,7 +47,7 @@ def panels(count, width, height):
 
 
 def curves(who, setups, file):
-    drawn = [(name, results) for name, results in setups.items() if len({r["family"] for r in results}) > 2]
+    drawn = [(name, results) for name, results in setups.items() if any(r["group"] in RIVALS for r in results)]
     if not drawn:
         return
     figure, axes = panels(len(drawn), 6.5, 5)

@@ -255,6 +255,29 @@ require run --out damaged --only a
 has damaged/report.md "d-01-nave\` left a damaged file"
 has damaged/report.md "pendulum.glb, 8x8"
 
+say "what is wanted of a GPU stands beside what was measured"
+# result TECHNIQUE GROUP MILLISECONDS: of one setup.
+result() {
+  cat <<JSON
+{"series": "curve", "x": 0, "scene": "nave", "size": [2560, 1600], "shadow_size": 4096, "lights": 0, "density": 1.0,
+ "context": "egl", "driver": "D", "technique": "$1", "family": "$1", "group": "$2",
+ "ms": {"median": $3, "min": $3, "max": $3, "runs": [$3]}, "gpu_ms": {"median": $3, "runs": [$3]}, "bytes": 1048576,
+ "errors": {"exact": {"rrmse": 0.01, "p99": 0.02, "max": 0.1}}, "passes": [{"name": "light 0 march", "ms": 1.5}],
+ "calls": {"restore": {"ms": 0.5, "processor_ms": 0.2}, "leave": {"ms": 0.4, "processor_ms": 0.1}, "lights": 1}}
+JSON
+}
+mkdir -p goals/parts/a-who goals/parts/d-01-nave goals/parts/d-10-nave
+build/bin/tyndall-gpu who --out goals/parts/a-who/who.json
+for at in goals/parts/*; do echo '{"title": "T", "result": "done", "exit": 0, "seconds": 1, "limit": 2}' >"$at/status.json"; done
+echo '{"machine": {}, "commit": "c", "date": "d", "results": [' "$(result exact exact 100)", "$(result high ours 5)", \
+  "$(result balanced ours 4)" ']}' >goals/parts/d-01-nave/bench.json
+echo '{"machine": {}, "commit": "c", "date": "d", "results": [' "$(result high ours 7)" ']}' >goals/parts/d-10-nave/bench.json
+require "$real/tyndall-gpu" report goals
+has goals/report.md "| nave 2560×1600, 4096² | high | 100 | 5 | 5 | 20× | ≥ 15× | yes | ≤ 6 | yes | 0.2 / 0.1 | yes |"
+has goals/report.md "| nave 2560×1600, 4096² | balanced | 100 | 4 | 4 | 25× | ≥ 28× | no | ≤ 3.3 | no | 0.2 / 0.1 | yes |"
+require test "$(grep -c '"technique": "high"' goals/report.json)" -eq 1 # what was measured first
+has goals/report.md "| light 0 march | 1.5 |"
+
 say "a full disk"
 # In a namespace of its own, which its mount ends with.
 cat >full.sh <<'FULL'
