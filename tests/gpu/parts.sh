@@ -10,9 +10,9 @@ set_sizes() {
   rivals=fixed:16,fixed:64,half:16,half:64,froxels:64,epipolar-march:512,tree:512,pyramid
   if [ "$size" = full ]; then
     rivals=$rivals,fixed:256,half:256,froxels:128,epipolar-march:1024,lowrank:4,volumes:1024,incremental:512
-    goal_size=2560x1600 goal_map=4096 more_sizes="1920x1080 3840x2160" sequence_size=1920x1080 frames=0-71 avsm_size=256 avsm_runs=10
+    goal_size=2560x1600 goal_map=4096 more_sizes="1920x1080 3840x2160" sequence_size=1920x1080 frames=0-71 avsm_size=256 avsm_runs=10 avsm_scenes="smoke hair"
   else
-    goal_size=320x200 goal_map=1024 more_sizes="240x150 480x300" sequence_size=320x180 frames=0-11 avsm_size=64 avsm_runs=2
+    goal_size=320x200 goal_map=1024 more_sizes="240x150 480x300" sequence_size=320x180 frames=0-11 avsm_size=64 avsm_runs=2 avsm_scenes="smoke-tenth hair-tenth"
   fi
 }
 
@@ -49,7 +49,7 @@ part_goals() {
 # (b) The tests on this driver, its compiler, and exact against map-exact on every sample scene.
 part_tests() {
   begin_part 130
-  step b-tests "Tests, each by itself" 75 TERM "$bin/tyndall-gpu" cases "$bin/tyndall-gl-tests" --out "$folder/b-tests" --jobs "$jobs"
+  step b-tests "Tests, each by itself" 70 TERM "$bin/tyndall-gpu" cases "$bin/tyndall-gl-tests" --out "$folder/b-tests" --jobs "$jobs"
   step b-programs "Every program, compiled" 60 TERM env MESA_SHADER_CACHE_DISABLE=true __GL_SHADER_DISK_CACHE=0 \
     "$bin/tyndall-gpu" programs --out "$folder/b-programs/programs.json"
   step b-accuracy "exact against map-exact, every scene" 45 TERM "$bin/tyndall-gpu" cases "$bin/tyndall-render-tests" \
@@ -104,7 +104,7 @@ part_motion() {
       "$bin/tyndall-sequence" "$scenes/$scene.glb" --frames $frames --size "$sequence_size" \
       --shadow-size "$goal_map" --context egl
   done
-  for scene in smoke hair; do
+  for scene in $avsm_scenes; do
     step "e-avsm-$scene" "Smoke and hair: $scene" 12 TERM "$bin/tyndall-avsm-bench" --scenes $scene --size $avsm_size \
       --runs $avsm_runs --context egl --csv "$folder/e-avsm-$scene/avsm.csv"
   done
