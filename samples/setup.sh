@@ -41,4 +41,4 @@ clang_version=19
 # shellcheck disable=SC2034
 all_packages="clang-$clang_version llvm-$clang_version clang-format-$clang_version clang-tidy-$clang_version
   libclang-rt-$clang_version-dev glslang-tools xvfb xauth g++-mingw-w64-x86-64 wine wine64 chromium munge slurmctld slurmd
-  slurm-client ffmpeg"
+  slurm-client ffmpeg xz-utils"

@@ -1,5 +1,6 @@
 #include "gl/SceneBuffers.h"
 
+#include "gl/Driver.h"
 #include "scene/Error.h"
 
 #include <algorithm>
@@ -12,10 +13,7 @@ namespace {
 constexpr float kMaxAnisotropy = 8;
 
 /// Mesa's software rasterisers filter anisotropically at a tenth of their usual speed.
-bool isSoftwareRenderer() {
-  const std::string renderer = reinterpret_cast<const char*>(gl().GetString(GL_RENDERER));
-  return renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
-}
+bool isSoftwareRenderer() { return isSoftware(reinterpret_cast<const char*>(gl().GetString(GL_RENDERER))); }
 
 GLint wrapOf(Wrap wrap) {
   switch (wrap) {

@@ -66,6 +66,7 @@ struct Options {
   std::optional<int> repeat;                     ///< none: render once, without a warm-up
   std::optional<std::filesystem::path> programs; ///< where linked programs are kept; none: all are compiled
   std::optional<host::ContextKind> context;      ///< none: host::defaultContextKind()
+  bool debug = true; ///< whether the driver checks and tells, which takes time of the processor
   std::vector<std::filesystem::path> out;
   std::optional<std::filesystem::path> stats;
   bool strict = false;                 ///< whether a note ends it before a picture is written

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
+#include <gl/Driver.h>
 #include <gl/Gl.h>
 #include <gl/ReadBack.h>
 #include <scene/Advice.h>
@@ -24,9 +25,7 @@ constexpr double kFramesPerSecond = 24;
 
 /// Timer queries of a software rasteriser measure when commands were queued, not when they ran.
 tyndall::PassTiming timingFor(const std::string& driver) {
-  for (const char* software : {"llvmpipe", "softpipe", "swrast", "SWR"})
-    if (driver.find(software) != std::string::npos) return tyndall::PassTiming::Finish;
-  return tyndall::PassTiming::TimerQuery;
+  return host::isSoftware(driver) ? tyndall::PassTiming::Finish : tyndall::PassTiming::TimerQuery;
 }
 
 host::RenderTargetOptions targetOptions(const Options& options) {
@@ -94,7 +93,7 @@ double Measurement::median() const {
 
 FrameRenderer::FrameRenderer(const Options& options)
     : options_(options),
-      context_(host::Context::create(options.context ? *options.context : host::defaultContextKind())),
+      context_(host::Context::create(options.context ? *options.context : host::defaultContextKind(), {options.debug})),
       scene_(host::loadScene(options.scene)), notes_(scene_.notes),
       sceneRenderer_(std::make_unique<host::SceneRenderer>(scene_)), surfaces_(targetOptions(options)),
       composite_(targetOptions(options)),

@@ -3,10 +3,13 @@
 #include "Memory.h"
 #include "render/SceneAnswers.h"
 
+#include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
+#include <gl/Driver.h>
 #include <gl/ReadBack.h>
 #include <gl/RenderTargets.h>
+#include <numeric>
 #include <optional>
 #include <render/RenderFrame.h>
 #include <scene/Error.h>
@@ -15,12 +18,6 @@
 namespace bench {
 
 namespace {
-
-bool isSoftware(const std::string& driver) {
-  for (const char* name : {"llvmpipe", "softpipe", "swrast", "SWR"})
-    if (driver.find(name) != std::string::npos) return true;
-  return false;
-}
 
 template <class Element>
 void cycle(std::vector<Element>& elements, int count) {
@@ -49,8 +46,30 @@ render::Options optionsOf(const Setup& setup, const std::string& scenesFolder) {
   options.context = setup.context;
   options.profile = "performance"; // the frame is only drawn for its depth and shadow maps
   options.technique = "epipolar";
+  options.debug = false;
   return options;
 }
+
+/// GL's own clock before and after work, which does not know how long the processor takes to ask for it.
+class Timestamps {
+public:
+  Timestamps() { host::gl().GenQueries(2, names_); }
+  ~Timestamps() { host::gl().DeleteQueries(2, names_); }
+  Timestamps(const Timestamps&) = delete;
+  Timestamps& operator=(const Timestamps&) = delete;
+
+  void begin() const { host::gl().QueryCounter(names_[0], GL_TIMESTAMP); }
+  void end() const { host::gl().QueryCounter(names_[1], GL_TIMESTAMP); }
+  double milliseconds() const {
+    GLuint64 nanoseconds[2] = {};
+    for (int i = 0; i < 2; ++i)
+      host::gl().GetQueryObjectui64v(names_[i], GL_QUERY_RESULT, &nanoseconds[i]);
+    return static_cast<double>(nanoseconds[1] - nanoseconds[0]) / 1e6;
+  }
+
+private:
+  GLuint names_[2] = {};
+};
 
 /// The scene's frame on the GPU, with a back buffer to blend into and outputs to judge.
 class Stage {
@@ -86,7 +105,8 @@ public:
     return {frame.width, frame.height, host::readColour(inscatter_.name(), frame.width, frame.height, 3)};
   }
 
-  double millisecondsOf(Runner& runner) const {
+  /// A timed run. Enters nothing if it fails.
+  void time(Runner& runner, Result& result) const {
     const GladGLContext& gl = host::gl();
     gl.BindFramebuffer(GL_FRAMEBUFFER, colour_->framebuffer());
     gl.Disable(GL_SCISSOR_TEST);
@@ -95,13 +115,18 @@ public:
     gl.Clear(GL_COLOR_BUFFER_BIT);
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     const tyndall::Frame frame = composited();
+    const Timestamps timestamps;
     gl.Finish();
     const auto start = std::chrono::steady_clock::now();
+    timestamps.begin();
     runner.render(frame);
+    timestamps.end();
     gl.Finish();
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+    const double onGpu = timestamps.milliseconds();
     throwGlErrors();
-    return time.count();
+    result.milliseconds.push_back(time.count());
+    result.gpuMilliseconds.push_back(onGpu);
   }
 
 private:
@@ -119,6 +144,7 @@ private:
 
 struct Case {
   Result result;
+  Result warmUp; ///< the time of its warm-up, which stands in where a run was ended before any other
   std::unique_ptr<Runner> runner;
   bool runs() const { return runner && result.failed.empty() && result.skipped.empty(); }
 };
@@ -171,10 +197,11 @@ public:
       for (Case& c : cases_) {
         if (stopped()) break;
         report_(fmt::format("{} run {}", c.result.technique.name, run + 1), 1);
-        if (c.runs()) guarded(c.result, [&] { c.result.milliseconds.push_back(stage_->millisecondsOf(*c.runner)); });
+        if (c.runs() && !isTimedEnough(c.result)) guarded(c.result, [&] { stage_->time(*c.runner, c.result); });
       }
     std::vector<Result> results;
     for (Case& c : cases_) {
+      if (stopped() && c.runs() && c.result.milliseconds.empty()) takeWarmUp(c);
       finish(c);
       // What Ctrl-C left without a single time is left out; how many runs the others have is in the results.
       const bool untimed = c.runs() && c.result.milliseconds.empty();
@@ -186,8 +213,15 @@ public:
 private:
   bool stopped() const { return options_.stop && *options_.stop; }
 
+  bool isTimedEnough(const Result& result) const {
+    constexpr std::size_t kLeastRuns = 3;
+    const std::vector<double>& times = result.milliseconds;
+    return times.size() >= kLeastRuns &&
+           std::accumulate(times.begin(), times.end(), 0.0) >= 1000 * options_.secondsOfRuns;
+  }
+
   std::unique_ptr<Runner> make(const Technique& technique) const {
-    return makeRunner(technique, stage_->loader(), isSoftware(stage_->driver()));
+    return makeRunner(technique, stage_->loader(), host::isSoftware(stage_->driver()));
   }
 
   /// Draws once for the error and, where compiling shaders could matter, once more as it will be timed.
@@ -199,6 +233,7 @@ private:
     c.result.setup.techniques.clear();
     c.result.technique = technique;
     c.result.driver = stage_->driver();
+    c.result.lightCount = stage_->composited().lights.size();
     report_(technique.name, 1);
     guarded(c.result, [&] {
       c.runner = make(technique);
@@ -210,8 +245,20 @@ private:
       for (const auto& [name, truth] : truths_)
         c.result.errors[name] = reference::compare(image, truth);
       if (c.result.errors["exact"].nonFinite > 0) throw host::Error("the picture has a NaN or an infinity");
-      if (time.count() < kCompilingMatters) stage_->millisecondsOf(*c.runner);
+      if (time.count() < kCompilingMatters) stage_->time(*c.runner, c.warmUp);
     });
+  }
+
+  static void takeWarmUp(Case& c) {
+    c.result.milliseconds = c.warmUp.milliseconds;
+    c.result.gpuMilliseconds = c.warmUp.gpuMilliseconds;
+  }
+
+  /// As many as fit into the time of a technique's runs.
+  int runsOfPasses(const Result& result) const {
+    constexpr double kLeast = 1;
+    const double fitting = 1000 * options_.secondsOfRuns / result.median();
+    return static_cast<int>(std::clamp<double>(fitting, kLeast, options_.runs));
   }
 
   void finish(Case& c) {
@@ -224,7 +271,11 @@ private:
       return;
     guarded(c.result, [&] {
       c.result.counts = c.runner->counts(stage_->composited());
-      if (!addFloors(c)) c.result.passes = c.runner->timedPasses(stage_->composited(), 1, [] {});
+      const int runs = host::isSoftware(stage_->driver()) ? 1 : runsOfPasses(c.result); // a GPU's are small and differ
+      if (!addFloors(c)) c.result.passes = c.runner->timedPasses(stage_->composited(), runs, [] {});
+      if (options_.calls && c.result.technique.group == Group::Ours)
+        c.result.calls =
+            callTimes(settingsFor(c.result.technique), stage_->loader(), stage_->composited(), runsOfPasses(c.result));
     });
   }
 
@@ -235,7 +286,7 @@ private:
     frame.settings = settingsFor(c.result.technique);
     if (!reasonAgainstFloors(frame).empty()) return false;
     Floors floors(frame, *c.result.counts);
-    c.result.passes = c.runner->timedPasses(frame, options_.runs, [&floors] { floors.run(); });
+    c.result.passes = c.runner->timedPasses(frame, runsOfPasses(c.result), [&floors] { floors.run(); });
     c.result.floors = floors.beside(c.result.passes);
     return true;
   }

@@ -11,9 +11,11 @@ namespace bench {
 struct MeasureOptions {
   std::string scenesFolder;
   int runs = 5;
-  bool mapExact = false; ///< judge against it as well
+  double secondsOfRuns = std::numeric_limits<double>::infinity(); ///< after three and so long no more are timed
+  bool mapExact = false;                                          ///< judge against it as well
   bool sceneExact = false;
   bool floors = false;                     ///< of the passes of ours
+  bool calls = false;                      ///< what render() takes of the processor
   const std::atomic<bool>* stop = nullptr; ///< set by Ctrl-C: end soon, keep what is finished
 };
 

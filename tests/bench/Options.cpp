@@ -2,6 +2,8 @@
 
 #include "render/SceneAnswers.h"
 
+#include <algorithm>
+#include <iterator>
 #include <render/OptionRules.h>
 #include <scene/Error.h>
 #include <scene/FileIo.h>
@@ -17,7 +19,7 @@ constexpr const char* kAllFolder = "bench-report";
 /// What does not go into the options as it is.
 struct Given {
   Request request;
-  std::vector<std::string> references;
+  std::vector<std::string> references, series;
   bool quick = false, all = false, scaling = false;
 };
 
@@ -84,7 +86,7 @@ void applyAll(Given& given, Options& options) {
   given.request.techniques = techniquesOf(allTechniques());
   given.references = {"map", "scene"};
   given.scaling = true;
-  options.floors = true;
+  options.floors = options.calls = true;
 }
 
 void addLists(CLI::App& app, Given& given) {
@@ -116,6 +118,9 @@ void addLists(CLI::App& app, Given& given) {
 void addOptions(CLI::App& app, Given& given, Options& options) {
   addLists(app, given);
   app.add_option("--runs", options.runs, "timed runs of each technique (default 5)")->check(CLI::Range(5, 1000));
+  app.add_option("--run-seconds", options.secondsOfRuns,
+                 "of a technique's timed runs together: after three and so long it has no more (default: no limit)")
+      ->check(render::numberThat("must be above 0", [](double seconds) { return seconds > 0; }));
   const CLI::Validator isWritable([](const std::string& folder) { return reasonAgainst(folder); }, "");
   app.add_option("--out", options.out, "a folder for bench.csv, bench.json and plots")
       ->type_name("FOLDER")
@@ -126,7 +131,11 @@ void addOptions(CLI::App& app, Given& given, Options& options) {
       ->check(CLI::ExistingDirectory)
       ->check(isWritable);
   app.add_flag("--floors", options.floors, "what each pass of ours would cost if it only read and wrote its bytes");
-  app.add_flag("--scaling", given.scaling, "the scaling series, too");
+  app.add_flag("--calls", options.calls, "what render() takes of the processor, for each state mode of ours");
+  auto* scaling = app.add_flag("--scaling", given.scaling, "the scaling series, too");
+  render::addList(app, "--series", given.series, render::oneOf("--series", kSeries),
+                  "only these: curve, as the lists say, shadow, image, slices, lights, density", kSeries)
+      ->excludes(scaling);
   app.add_flag("--plots", options.plots, "draw them (needs python3 with matplotlib)");
   auto* quick =
       app.add_flag("--quick", given.quick, "small pictures of two scenes, within a minute; overrides the lists");
@@ -137,10 +146,13 @@ void addOptions(CLI::App& app, Given& given, Options& options) {
 Options complete(Given& given, Options options) {
   if (given.quick) applyQuick(given.request);
   if (given.all) applyAll(given, options);
-  options.setups = planCurves(given.request);
-  if (given.scaling)
-    for (Setup& setup : planScaling())
-      options.setups.push_back(std::move(setup));
+  const auto isWanted = [&](const std::string& series) {
+    if (given.series.empty()) return series == "curve" || given.scaling;
+    return std::find(given.series.begin(), given.series.end(), series) != given.series.end();
+  };
+  for (const auto& setups : {planCurves(given.request), planScaling(given.request.contexts.front())})
+    std::copy_if(setups.begin(), setups.end(), std::back_inserter(options.setups),
+                 [&](const Setup& setup) { return isWanted(setup.series); });
   for (const std::string& name : given.references)
     (name == "map" ? options.mapExact : options.sceneExact) = true;
   readOutputs(given, options);

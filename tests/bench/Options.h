@@ -10,9 +10,11 @@ namespace bench {
 struct Options {
   std::vector<Setup> setups;
   int runs = 5;
+  double secondsOfRuns = std::numeric_limits<double>::infinity();
   bool mapExact = false;
   bool sceneExact = false;
   bool floors = false;
+  bool calls = false;
   bool plots = false;
   std::filesystem::path out;   ///< empty: print only
   std::filesystem::path cache; ///< empty: keep no references

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <scene/Error.h>
 #include <scene/FileIo.h>
+#include <scene/Places.h>
 #include <scene/Tool.h>
 #include <sys/utsname.h>
 #include <thread>
@@ -18,18 +19,6 @@ namespace bench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string firstLineOf(const std::string& command) {
-  std::array<char, 256> line{};
-  std::FILE* pipe = popen(command.c_str(), "r"); // NOLINT(cert-env33-c): fixed commands
-  if (!pipe) return {};
-  const bool got = std::fgets(line.data(), static_cast<int>(line.size()), pipe) != nullptr;
-  pclose(pipe);
-  std::string text = got ? line.data() : "";
-  while (!text.empty() && text.back() == '\n')
-    text.pop_back();
-  return text;
-}
 
 std::string processorName() {
   std::ifstream info("/proc/cpuinfo");
@@ -66,8 +55,7 @@ Machine thisMachine() {
       static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
   utsname name{};
   if (uname(&name) == 0) machine.system = fmt::format("{} {} {}", name.sysname, name.release, name.machine);
-  machine.commit = firstLineOf("git -C '" TYNDALL_SOURCE_DIR "' describe --always --dirty 2>/dev/null");
-  if (machine.commit.empty()) machine.commit = "unknown";
+  machine.commit = host::commitOf(TYNDALL_SOURCE_DIR);
   machine.date = todayUtc();
   return machine;
 }
@@ -106,6 +94,19 @@ void printFloors(const std::vector<Result>& results) {
     for (const PassFloor& row : rows)
       host::print(fmt::format("{:<24}{:>10.3f}{:>10.3f}{:>8.2f}x\n", row.name, row.milliseconds, row.floor,
                               row.milliseconds / row.floor));
+  }
+}
+
+void printCalls(const std::vector<Result>& results) {
+  bool begun = false;
+  for (const Result& r : results) {
+    if (!r.calls) continue;
+    if (!begun)
+      host::print(fmt::format("\n{}: the processor in render(), ms\n{:<24}{:>10}{:>10}{:>10}{:>10}\n", r.setup.label(),
+                              "technique", "restore", "its CPU", "leave", "its CPU"));
+    begun = true;
+    host::print(fmt::format("{:<24}{:>10.3f}{:>10.3f}{:>10.3f}{:>10.3f}\n", r.technique.name, r.calls->restore.wall,
+                            r.calls->restore.processor, r.calls->leave.wall, r.calls->leave.processor));
   }
 }
 
@@ -162,6 +163,8 @@ Json floorsOf(const Result& result) {
   return json;
 }
 
+Json callOf(const CallTime& call) { return {{"ms", call.wall}, {"processor_ms", call.processor}}; }
+
 Json resultOf(const Result& r) {
   Json json = {{"series", r.setup.series},
                {"x", r.setup.x},
@@ -179,6 +182,7 @@ Json resultOf(const Result& r) {
   if (!r.failed.empty()) json["failed"] = r.failed;
   if (!r.ok()) return json;
   json["ms"] = {{"median", r.median()}, {"min", r.least()}, {"max", r.most()}, {"runs", r.milliseconds}};
+  json["gpu_ms"] = {{"median", r.gpuMedian()}, {"runs", r.gpuMilliseconds}};
   json["bytes"] = r.bytes;
   json["peak_memory"] = r.peakMemory;
   if (r.counts) json["rays"] = r.counts->rays;
@@ -190,6 +194,10 @@ Json resultOf(const Result& r) {
     json["errors"][name] = {{"rrmse", number(error.rRmse)}, {"p99", number(error.p99)}, {"max", number(error.max)}};
   json["passes"] = passesOf(r);
   if (!r.floors.empty()) json["floors"] = floorsOf(r);
+  if (r.calls) {
+    json["calls"] = {{"restore", callOf(r.calls->restore)}, {"leave", callOf(r.calls->leave)}};
+    json["calls"]["lights"] = r.lightCount;
+  }
   return json;
 }
 

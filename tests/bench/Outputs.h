@@ -21,6 +21,7 @@ Machine thisMachine();
 
 void printTable(const std::vector<Result>& results);
 void printFloors(const std::vector<Result>& results);
+void printCalls(const std::vector<Result>& results);
 void printEqualErrors(const std::vector<EqualError>& rows);
 void printGrowths(const std::vector<Growth>& rows);
 

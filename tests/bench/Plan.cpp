@@ -73,7 +73,7 @@ std::vector<Setup> planCurves(const Request& request) {
   return setups;
 }
 
-std::vector<Setup> planScaling() {
+std::vector<Setup> planScaling(host::ContextKind context) {
   std::vector<Setup> setups;
   addShadowSeries(setups);
   addImageSeries(setups);
@@ -89,6 +89,8 @@ std::vector<Setup> planScaling() {
     setup.density = density;
     setups.push_back(setup);
   }
+  for (Setup& setup : setups)
+    setup.context = context;
   return setups;
 }
 

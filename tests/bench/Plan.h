@@ -9,6 +9,9 @@
 
 namespace bench {
 
+/// What Setup::series may be.
+inline const std::vector<std::string> kSeries = {"curve", "shadow", "image", "slices", "lights", "density"};
+
 struct Setup {
   std::string series; ///< "curve", or what varies in a scaling series: "shadow", "image", "slices", "lights", "density"
   double x = 0;       ///< the value that varies; 0 in a curve
@@ -39,6 +42,6 @@ struct Request {
 std::vector<Setup> planCurves(const Request& request);
 
 /// The scaling series of the full report.
-std::vector<Setup> planScaling();
+std::vector<Setup> planScaling(host::ContextKind context);
 
 } // namespace bench

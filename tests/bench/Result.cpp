@@ -4,11 +4,18 @@
 
 namespace bench {
 
-double Result::median() const {
-  std::vector<double> sorted = milliseconds;
+namespace {
+
+double medianOf(std::vector<double> sorted) {
   std::sort(sorted.begin(), sorted.end());
   return 0.5 * (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]);
 }
+
+} // namespace
+
+double Result::median() const { return medianOf(milliseconds); }
+
+double Result::gpuMedian() const { return medianOf(gpuMilliseconds); }
 
 double Result::least() const { return *std::min_element(milliseconds.begin(), milliseconds.end()); }
 

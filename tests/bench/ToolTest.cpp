@@ -1,4 +1,5 @@
 // tyndall-bench as a user meets it: one clear line for each wrong input, and references that survive a damaged cache.
+#include "Plan.h"
 #include "ReferenceCache.h"
 #include "support/Catch.h"
 
@@ -67,7 +68,7 @@ private:
 } // namespace
 
 TEST_CASE("wrong usage is a line that names the option and one on how to get help, exit code 2") {
-  const std::array<std::array<const char*, 2>, 18> cases = {{
+  const std::array<std::array<const char*, 2>, 21> cases = {{
       {"--scenes cathedral", "--scenes cathedral: must be one of nave"},
       {"--scenes nave,,stage", "--scenes \"nave,,stage\": must be a list separated by single commas"},
       {"--scenes nave,nave", "--scenes nave,nave: names nave twice"},
@@ -83,6 +84,9 @@ TEST_CASE("wrong usage is a line that names the option and one on how to get hel
       {"--contexts vulkan", "--contexts vulkan: must be osmesa, egl or glfw"},
       {"--references truth", "--references truth: must be one of map, scene"},
       {"--runs 4", "--runs: Value 4 not in range"},
+      {"--run-seconds 0", "--run-seconds: "},
+      {"--series size", "--series size: must be one of curve, shadow"},
+      {"--series shadow --scaling", " excludes --"},
       {"--out /no/such/folder", "--out: Directory does not exist: /no/such/folder"},
       {"--quick --all", " excludes --"},
       {"--plots", "--plots requires --out"},
@@ -149,6 +153,39 @@ TEST_CASE("every pass that ran has a floor, and only those, and visits are count
     CHECK(floors == ran);
     CHECK(ran.size() >= 11);
   }
+}
+
+TEST_CASE("runs end when they took long; GL's own time is beside each, and what render() takes of the processor") {
+  const Folder folder;
+  const ToolResult result = runTool("--scenes stage --sizes 96x64 --shadow-sizes 128 --techniques exact,high --runs 20 "
+                                    "--run-seconds 0.0001 --calls --out " +
+                                    folder.path().string());
+  INFO(result.output);
+  REQUIRE(result.exitCode == 0);
+  CHECK(result.output.find("the processor in render()") != std::string::npos);
+  for (const nlohmann::json& r : readJson(folder.path() / "bench.json").at("results")) {
+    CAPTURE(r.at("technique"));
+    CHECK(r.at("ms").at("runs").size() == 3);
+    REQUIRE(r.at("gpu_ms").at("runs").size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+      CHECK(r.at("gpu_ms").at("runs")[i] > 0);
+      CHECK(r.at("gpu_ms").at("runs")[i] <= r.at("ms").at("runs")[i]);
+    }
+    REQUIRE(r.contains("calls") == (r.at("group") == "ours"));
+    if (!r.contains("calls")) continue;
+    CHECK(r.at("calls").at("lights") == 4);
+    for (const char* mode : {"restore", "leave"}) {
+      CHECK(r.at("calls").at(mode).at("ms") > 0);
+      CHECK(r.at("calls").at(mode).at("processor_ms") > 0);
+    }
+  }
+}
+
+TEST_CASE("the scaling series are measured in the context that is asked for") {
+  const std::vector<bench::Setup> setups = bench::planScaling(host::ContextKind::Egl);
+  CHECK(setups.size() > 10);
+  for (const bench::Setup& setup : setups)
+    CHECK(setup.context == host::ContextKind::Egl);
 }
 
 TEST_CASE("the report's tables hold the numbers of a run") {

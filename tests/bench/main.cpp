@@ -11,6 +11,7 @@
 #include <render/CommandLine.h>
 #include <scene/Error.h>
 #include <scene/FileIo.h>
+#include <scene/Places.h>
 #include <scene/Tool.h>
 
 namespace bench {
@@ -44,8 +45,9 @@ std::vector<Result> measureAll(const Options& options, const Machine& machine) {
     units += unitsOf(setup, options.runs);
   Progress progress(units);
   MeasureOptions measureOptions;
-  measureOptions.scenesFolder = TYNDALL_SCENES_DIR;
+  measureOptions.scenesFolder = host::placeOf("scenes", TYNDALL_SCENES_DIR);
   measureOptions.runs = options.runs;
+  measureOptions.secondsOfRuns = options.secondsOfRuns;
   measureOptions.stop = &stopAsked;
   const ReferenceCache cache(options.cache, [&progress](const std::string& line) {
     progress.clear();
@@ -58,6 +60,7 @@ std::vector<Result> measureAll(const Options& options, const Machine& machine) {
     measureOptions.mapExact = options.mapExact && setup.series == "curve";
     measureOptions.sceneExact = options.sceneExact && setup.series == "curve";
     measureOptions.floors = options.floors && setup.series == "curve";
+    measureOptions.calls = options.calls && setup.series == "curve";
     const Report report = [&](const std::string& what, int begun) {
       progress.begin(setup.label() + ": " + what, begun);
     };
@@ -65,6 +68,7 @@ std::vector<Result> measureAll(const Options& options, const Machine& machine) {
     progress.clear();
     printTable(more);
     printFloors(more);
+    printCalls(more);
     results.insert(results.end(), more.begin(), more.end());
     write(options, machine, results);
   }

@@ -36,8 +36,7 @@ def file_name(text):
     return "".join(c if c.isalnum() else "-" for c in text)
 
 
-def plot_curve(name, results, subtitle, folder):
-    figure, axes = plt.subplots(figsize=(8, 5.5))
+def draw_curve(axes, title, results):
     curves = defaultdict(list)
     for r in results:
         error = r["errors"]["exact"]["rrmse"]
@@ -54,9 +53,14 @@ def plot_curve(name, results, subtitle, folder):
             axes.annotate(technique.split(":")[-1], (time, error), fontsize=6, xytext=(3, 3),
                           textcoords="offset points")
     axes.set(xscale="log", yscale="log", xlabel="time, ms (median)", ylabel="rRMSE against exact, %")
-    axes.set_title(f"{name}\n{subtitle}", fontsize=9)
+    axes.set_title(title, fontsize=9)
     axes.grid(True, which="both", alpha=0.25)
     axes.legend(fontsize=8)
+
+
+def plot_curve(name, results, subtitle, folder):
+    figure, axes = plt.subplots(figsize=(8, 5.5))
+    draw_curve(axes, f"{name}\n{subtitle}", results)
     save(figure, folder, "curve-" + file_name(name))
 
 
@@ -65,11 +69,11 @@ def pass_kind(name):
     return " ".join(w for i, w in enumerate(words) if w != "light" and not (i and words[i - 1] == "light")) or name
 
 
-def plot_passes(name, results, folder):
-    rows = [r for r in results if any("ms" in p for p in r.get("passes", []))]
-    if not rows:
-        return
-    figure, axes = plt.subplots(figsize=(9, 1.5 + 0.32 * len(rows)))
+def timed(results):
+    return [r for r in results if any("ms" in p for p in r.get("passes", []))]
+
+
+def draw_passes(axes, name, rows):
     kinds, colours = [], plt.get_cmap("tab20")
     for y, r in enumerate(rows):
         left, times = 0.0, defaultdict(float)
@@ -86,11 +90,18 @@ def plot_passes(name, results, folder):
     axes.set_xlabel("ms, each pass on its own")
     axes.set_title(name, fontsize=9)
     axes.legend(fontsize=6, ncol=2, loc="center left", bbox_to_anchor=(1, 0.5))
+
+
+def plot_passes(name, results, folder):
+    rows = timed(results)
+    if not rows:
+        return
+    figure, axes = plt.subplots(figsize=(9, 1.5 + 0.32 * len(rows)))
+    draw_passes(axes, name, rows)
     save(figure, folder, "passes-" + file_name(name))
 
 
-def plot_series(name, results, fits, folder):
-    figure, axes = plt.subplots(figsize=(7, 5))
+def draw_series(axes, name, results, fits):
     lines = defaultdict(list)
     for r in results:
         lines[r["family"] if name == "slices" else r["technique"]].append((r["x"], r["ms"]["median"]))
@@ -105,6 +116,11 @@ def plot_series(name, results, fits, folder):
     axes.set_title(f"scaling: {name} ({results[0]['scene']})", fontsize=9)
     axes.grid(True, which="both", alpha=0.25)
     axes.legend(fontsize=8)
+
+
+def plot_series(name, results, fits, folder):
+    figure, axes = plt.subplots(figsize=(7, 5))
+    draw_series(axes, name, results, fits)
     save(figure, folder, "scaling-" + name)
 
 

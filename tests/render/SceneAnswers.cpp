@@ -1,8 +1,10 @@
 #include "render/SceneAnswers.h"
 
+#include <cstdlib>
 #include <gl/ReadBack.h>
 #include <render/OptionRules.h>
 #include <render/RenderFrame.h>
+#include <scene/Places.h>
 
 namespace tests {
 
@@ -44,10 +46,11 @@ render::Options sampleOptions(const std::string& scene, int width, int height, i
   render::Options options;
   options.profile = "reference";
   options.technique = "exact";
-  options.scene = std::string(TYNDALL_SCENES_DIR) + "/" + scene + ".glb";
+  options.scene = host::placeOf("scenes", TYNDALL_SCENES_DIR) / (scene + ".glb");
   options.width = width;
   options.height = height;
   options.shadowSize = shadowSize;
+  if (const char* context = std::getenv("TYNDALL_TEST_CONTEXT")) options.context = host::parseContextKind(context);
   return options;
 }
 

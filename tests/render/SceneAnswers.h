@@ -11,7 +11,8 @@ namespace tests {
 /// The sample scenes, by name.
 const std::vector<std::string>& sampleScenes();
 
-/// Options for a sample scene at the given image and shadow-map size.
+/// Options for a sample scene at the given image and shadow-map size, in the kind of context that TYNDALL_TEST_CONTEXT
+/// names.
 render::Options sampleOptions(const std::string& scene, int width, int height, int shadowSize);
 
 struct SceneAnswers {

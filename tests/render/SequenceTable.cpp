@@ -67,6 +67,7 @@ int run(render::Options options) {
   if (!options.frames) throw render::UsageError("--frames is missing");
   options.changes = Changes::Objects; // the renderer tells what moved
   options.programs.reset();           // a measurement depends on no earlier one
+  options.debug = false;
   render::FrameRenderer renderer(options);
   std::array<Way, kWays.size()> ways;
   for (Way& way : ways)
@@ -89,7 +90,7 @@ int run(render::Options options) {
       if (i == 0) full = colour;
       ways[i].error = difference(colour, full);
     }
-    host::print(fmt::format("{},{:.2f},{:.2f},{:.2f},{:.4f},{:.4f},{:.2e},{:.2e}\n", number, ways[0].milliseconds,
+    host::print(fmt::format("{},{:.3f},{:.3f},{:.3f},{:.4f},{:.4f},{:.2e},{:.2e}\n", number, ways[0].milliseconds,
                             ways[1].milliseconds, ways[2].milliseconds, ways[1].share, ways[2].share, ways[1].error,
                             ways[2].error));
   }

@@ -216,7 +216,7 @@ std::vector<MethodEntry> chosen(const Options& options) {
 
 void run(const Options& options) {
   const std::unique_ptr<host::Context> context =
-      host::Context::create(options.context ? *options.context : host::defaultContextKind());
+      host::Context::create(options.context ? *options.context : host::defaultContextKind(), {/*debug*/ false});
   if (context->glVersion() < 43) throw host::Error("the context is older than OpenGL 4.3");
   const std::vector<MethodEntry> methods = chosen(options);
   for (const std::string& file : {options.csv, options.curves})
@@ -238,6 +238,7 @@ void run(const Options& options) {
         bench.printPasses(8, true, reduction);
     for (const MethodEntry& entry : methods) {
       rows.push_back(bench.measure(entry));
+      if (!options.csv.empty()) writeCsv(options.csv, rows); // so that a run which is ended leaves what it has
       host::say(fmt::format("{}: {}", name, entry.name));
     }
     if (!options.curves.empty()) bench.writeCurves(curves, methods);
@@ -247,7 +248,6 @@ void run(const Options& options) {
   }
   host::print(fmt::format("{}; baseline: {}; median of {} runs\n\n", context->driver(), kBaseline, options.runs));
   printMarkdown(rows);
-  if (!options.csv.empty()) writeCsv(options.csv, rows);
   if (!options.curves.empty()) host::writeText(options.curves, curves.str());
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <scene/Error.h>
+#include <scene/Places.h>
 #include <set>
 #include <sstream>
 
@@ -11,8 +12,10 @@ namespace bench {
 namespace {
 
 std::ifstream openShader(const std::string& file) {
-  for (const char* folder : {TYNDALL_BASELINE_SHADERS, TYNDALL_RIVAL_SHADERS, TYNDALL_EFFECT_SHADERS}) {
-    std::ifstream stream(std::filesystem::path(folder) / file);
+  for (const auto& [inBundle, inBuild] : {std::pair("baselines", TYNDALL_BASELINE_SHADERS),
+                                          {"rivals", TYNDALL_RIVAL_SHADERS},
+                                          {"glsl", TYNDALL_EFFECT_SHADERS}}) {
+    std::ifstream stream(host::placeOf(inBundle, inBuild) / file);
     if (stream) return stream;
   }
   throw host::Error("shader " + file + ": not found");

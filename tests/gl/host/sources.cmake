@@ -1,6 +1,7 @@
 # Tests of host/gl, for the executable that includes this file.
 set(TYNDALL_GL_HOST_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/ContextTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/EglDeviceTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ObjectsTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SceneDepthTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ShadowMapTest.cpp
