@@ -61,14 +61,14 @@ private:
   Read marks(double n) const { return {GL_RGBA16, shape_.slices, samples_ / 64, n}; }
   Read offsets(double n) const { return {GL_R32F, shape_.slices, samples_ / 64 + 1, n}; }
   Read marched(double n) const { return {marchedFormat(), shape_.slices, samples_ / 16 + 1, n}; }
-  Read extra(double n) const { return {extraFormat(), shape_.slices, samples_ / 4, n}; }
+  Read extra(double n) const { return {extraFormat(), shape_.slices, samples_ / 2, n}; }
   Read epipolarInscatter(double n) const { return {inscatterFormat(), shape_.slices, samples_, n}; }
   Read rowDepths(double n) const { return {GL_RGBA16, shape_.rowTexels / 4, shape_.slices, n}; }
   Read rowNodes(double n) const { return {GL_RGBA16, shape_.rowTexels / 16, shape_.slices, n}; }
   Read rowTree(double n) const { return {GL_RGBA16, treeNodes_, shape_.slices, n}; }
 
   GLenum marchedFormat() const { return coloured_ ? GL_RGBA16F : GL_R32F; }
-  GLenum extraFormat() const { return coloured_ ? GL_RGBA16F : GL_RGBA32F; }
+  GLenum extraFormat() const { return coloured_ ? GL_RGBA16F : GL_RG32F; }
   GLenum inscatterFormat() const { return coloured_ ? GL_RGBA16F : GL_RG32F; }
 
   /// What a ray looks at: nodes and groups of texels, which are not counted apart, half of each. rays: of a
@@ -112,14 +112,14 @@ private:
     Pass march = over("march", marched(0), withVisits({sliceTable(4), sampleEnds(1)}, share));
     const double chunksBefore = 0.5 * samples_ / 64 + 1;
     Pass extraPass = over("march extra", extra(0),
-                          withVisits({sliceTable(4), offsets(chunksBefore), marks(1), sampleEnds(4)},
+                          withVisits({sliceTable(4), offsets(chunksBefore), marks(1), sampleEnds(2)},
                                      counts_.packedRays / std::max(packs_, 1.0)));
     extraPass.height = packRows_; // others are not drawn
-    if (coloured_) extraPass.targets.resize(3, extraFormat());
+    if (coloured_) extraPass.targets.resize(2, extraFormat());
     // Each sample lies between two march samples, of which those in segments with extra ones are extra ones.
-    const double fromExtra = 2 * std::min(1.0, packs_ / static_cast<double>(shape_.regularSamples));
-    std::vector<Read> between = {sliceTable(2), marks(1), offsets(1), sampleEnds(1), marched(2 - fromExtra)};
-    between.resize(between.size() + (coloured_ ? 3 : 1), extra(fromExtra));
+    const double fromExtra = 2 * std::min(1.0, 0.5 * packs_ / static_cast<double>(shape_.regularSamples));
+    const std::vector<Read> between = {sliceTable(2),          marks(1),        offsets(1), sampleEnds(1),
+                                       marched(2 - fromExtra), extra(fromExtra)};
     return {march, extraPass, over("interpolate", epipolarInscatter(0), between)};
   }
 
