@@ -61,12 +61,12 @@ struct Options {
   std::optional<Share> share;       ///< none: all of the frames
   bool resume = false;              ///< whether frames whose files are whole stay as they are
   bool missing = false;             ///< whether to draw nothing, and name the frames that are not
+  bool debug = true;                ///< whether the driver checks and tells, which takes time of the processor
   tyndall::Changes changes = tyndall::Changes::Unknown; ///< how frames after the first reuse what they can
   tyndall::Tuning tuning;
   std::optional<int> repeat;                     ///< none: render once, without a warm-up
   std::optional<std::filesystem::path> programs; ///< where linked programs are kept; none: all are compiled
   std::optional<host::ContextKind> context;      ///< none: host::defaultContextKind()
-  bool debug = true; ///< whether the driver checks and tells, which takes time of the processor
   std::vector<std::filesystem::path> out;
   std::optional<std::filesystem::path> stats;
   bool strict = false;                 ///< whether a note ends it before a picture is written
