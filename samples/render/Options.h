@@ -53,15 +53,16 @@ struct Options {
   int shadowSize = 4096;
   int cascades = 1;
   double cascadeFade = 0.1;
-  bool avsm = true;   ///< whether smoke and strands cast shadows
   int avsmSize = 256; ///< texels per side
   int avsmNodes = 8;
+  bool avsm = true;                 ///< whether smoke and strands cast shadows
   bool reversedDepth = false;       ///< of camera and shadow maps, with clip depth from 0 to 1
   std::optional<FrameRange> frames; ///< none: frame 0, and one object in the statistics instead of a list
   std::optional<Share> share;       ///< none: all of the frames
   bool resume = false;              ///< whether frames whose files are whole stay as they are
   bool missing = false;             ///< whether to draw nothing, and name the frames that are not
   bool debug = true;                ///< whether the driver checks and tells, which takes time of the processor
+  bool strict = false;              ///< whether a note ends it before a picture is written
   tyndall::Changes changes = tyndall::Changes::Unknown; ///< how frames after the first reuse what they can
   tyndall::Tuning tuning;
   std::optional<int> repeat;                     ///< none: render once, without a warm-up
@@ -69,7 +70,6 @@ struct Options {
   std::optional<host::ContextKind> context;      ///< none: host::defaultContextKind()
   std::vector<std::filesystem::path> out;
   std::optional<std::filesystem::path> stats;
-  bool strict = false;                 ///< whether a note ends it before a picture is written
   std::optional<double> exposureStops; ///< none: by the picture's brightness
 };
 
