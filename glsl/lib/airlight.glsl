@@ -1,8 +1,9 @@
 // In-scattered light of a lit span of a camera ray (DESIGN 1). LIGHT_KIND: 0 directional, 1 point, 2 spot.
 //
 // Airlight holds what a ray needs once; addAirlight() adds the integral over the span [s0, s1] to a sum, times how much of the light
-// passes (one sum all the way down: sums of sums would each take registers); litRange() says where along the ray the light reaches at all. The light's colour and the scattering coefficient are left out: the caller multiplies by
-// lightColour, which holds both. PHASE_APART: so is a directional light's phase function, constant along the ray, too.
+// passes (one sum all the way down: sums of sums would each take registers); litRange() says where along the ray the light
+// reaches at all. The light's colour and the scattering coefficient are left out: the caller multiplies by lightColour, which
+// holds both. PHASE_APART: so is a directional light's phase function, constant along the ray, too.
 
 #if GLASS
 #define Visibility vec3 // fraction of the light that passes, per channel

@@ -36,9 +36,10 @@ void addRendering(CLI::App& app, Arguments& arguments) {
          "--share", [&](const std::string& text) { arguments.share = render::parseShare("--share", text, kMaxShares); },
          "every N-th case from the K-th on, for one machine of N")
       ->type_name("K/N");
-  app.add_option("--jobs", arguments.jobs, "cases at a time (default 1)")->check(CLI::Range(1, 256));
+  app.add_option("--jobs", arguments.jobs, "cases at a time (default 1)")
+      ->check(render::numberThat("must be between 1 and 256", [](double x) { return x >= 1 && x <= 256; }));
   app.add_option("--timeout", arguments.timeoutSeconds, "seconds after which a case has failed (default 600)")
-      ->check(CLI::Range(1, 86400));
+      ->check(render::numberThat("must be between 1 and 86400", [](double x) { return x >= 1 && x <= 86400; }));
   render::chooseFrom(render::kContextNames, app.add_option("--context", arguments.context,
                                                            "GL's (default: osmesa, or egl where its library is not)"));
   app.add_option("--commit", arguments.commit, "the name of what is tested (default: git's for the list's folder)")

@@ -34,7 +34,7 @@ std::vector<std::string> allTechniques();
 
 /// What a frame takes, in numbers that no machine changes.
 struct Counts {
-  std::uint64_t rays = 0;             ///< integrated; up to four extra march samples count as one
+  std::uint64_t rays = 0;             ///< integrated; up to two extra march samples count as one
   std::uint64_t fixupPixels = 0;      ///< among them
   double packedRays = 0;              ///< of extra march samples, about: the sides of a break share one
   std::optional<double> visitsPerRay; ///< nodes and groups of texels that a pixel's ray looks at, of the first light

@@ -4,24 +4,16 @@
 # Exit status 77: skipped, since what packs it is missing.
 set -eu
 build=$(cd "$1" && pwd)
-gpu=$(cd "$(dirname "$0")/.." && pwd)/gpu.sh
+here=$(cd "$(dirname "$0")" && pwd)
+gpu=$(dirname "$here")/gpu.sh
 for program in xz strip objdump; do
   command -v $program >/dev/null && continue
   echo "SKIPPED: no bundle: $program is missing (Debian's packages xz-utils, binutils)" >&2
   exit 77
 done
 
-work=$(mktemp -d "${TMPDIR:-/tmp}/tyndall-bundle-test-XXXXXX")
-# shellcheck disable=SC2329 # called by a trap
-end() {
-  status=$?
-  trap - EXIT
-  if [ "$status" -eq 0 ]; then rm -rf "$work"; else echo "FAILED; all that it wrote is in $work" >&2; fi
-  exit "$status"
-}
-trap end EXIT
-trap 'exit 130' HUP INT TERM
-cd "$work"
+# shellcheck source=tests/gpu/scratch.sh
+. "$here/scratch.sh"
 require() {
   "$@" && return
   echo "not so: $*" >&2

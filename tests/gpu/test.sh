@@ -4,19 +4,11 @@
 # shellcheck disable=SC2030,SC2031 # what is set for one command in a subshell is meant to end there
 set -eu
 real=$(cd "$1" && pwd) fake_egl=${2:+$(cd "$2" && pwd)}
-gpu=$(cd "$(dirname "$0")/.." && pwd)/gpu.sh
+here=$(cd "$(dirname "$0")" && pwd)
+gpu=$(dirname "$here")/gpu.sh
 
-work=$(mktemp -d "${TMPDIR:-/tmp}/tyndall-gpu-test-XXXXXX")
-# shellcheck disable=SC2329 # called by a trap
-end() {
-  status=$?
-  trap - EXIT
-  if [ "$status" -eq 0 ]; then rm -rf "$work"; else echo "FAILED; all that it wrote is in $work" >&2; fi
-  exit "$status"
-}
-trap end EXIT
-trap 'exit 130' HUP INT TERM
-cd "$work"
+# shellcheck source=tests/gpu/scratch.sh
+. "$here/scratch.sh"
 
 say() { printf '%s  %s\n' "$(date +%T)" "$*"; }
 die() {

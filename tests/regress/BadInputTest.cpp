@@ -34,7 +34,7 @@ TEST_CASE("wrong usage of tyndall-regress is a line that names the option, exit 
   checkUsage(suite, check + "--only '['", "--only [: must be a name or a regular expression");
   checkUsage(suite, check + "--only ''", "--only");
   checkUsage(suite, check + "--share 3/2", "--share 3/2: must be K/N");
-  checkUsage(suite, check + "--jobs 0", "--jobs: Value 0 not in range");
+  checkUsage(suite, check + "--jobs 0", "--jobs: 0 must be between 1 and 256");
   checkUsage(suite, check + "--timeout x", "--timeout: x is not a whole number");
   checkUsage(suite, check + "--context vulkan", "--context: vulkan not in");
   checkUsage(suite, check + "--force --resume", "--force excludes --resume");

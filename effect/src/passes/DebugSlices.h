@@ -1,5 +1,5 @@
 // Debug slices: what a debug view shows of one light's slices, samples and pixels (glsl/passes/debugSlices,
-// debugSamples, debugFixup, pixelTree with COUNT_VISITS).
+// debugSamples, red, pixelTree with COUNT_VISITS).
 #pragma once
 
 #include "plan/LightPlanner.h"
