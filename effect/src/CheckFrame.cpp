@@ -257,10 +257,10 @@ Status checkReuse(const Frame& frame) {
 } // namespace
 
 Status checkValues(const Frame& frame) {
-  if (frame.width < 1 || frame.width > kMaxImageSize)
-    return invalid("width", std::to_string(frame.width), "must be 1 to 16384");
-  if (frame.height < 1 || frame.height > kMaxImageSize)
-    return invalid("height", std::to_string(frame.height), "must be 1 to 16384");
+  if (frame.viewport.width < 1 || frame.viewport.width > kMaxImageSize)
+    return invalid("viewport.width", std::to_string(frame.viewport.width), "must be 1 to 16384");
+  if (frame.viewport.height < 1 || frame.viewport.height > kMaxImageSize)
+    return invalid("viewport.height", std::to_string(frame.viewport.height), "must be 1 to 16384");
   if (frame.colour == 0 && frame.output.inscatter == 0 && frame.output.transmittance == 0)
     return invalid("colour", "0", "may only be left out if output names a texture to write");
   if (Status s = checkCamera(frame.camera); !s) return s;

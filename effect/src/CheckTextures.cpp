@@ -178,7 +178,7 @@ Status checkTarget(const Functions& gl, const Frame& frame, const std::string& f
   Info info;
   if (Status s = check(gl, field, name, TEXTURE_2D, use, info); !s) return s;
   largest = std::min(largest, largestValue(info.format));
-  return sized(field, name, info, frame.width, frame.height);
+  return sized(field, name, info, frame.viewport.width, frame.viewport.height);
 }
 
 Status checkDistinct(const Frame& frame) {
@@ -250,7 +250,8 @@ Status checkTextures(const Functions& gl, const Frame& frame, FrameTextures& tex
   Info depth;
   const Enum target = frame.depth.multisampled ? TEXTURE_2D_MULTISAMPLE : TEXTURE_2D;
   if (Status s = check(gl, "depth.texture", frame.depth.texture, target, Use::Depth, depth); !s) return s;
-  if (Status s = sized("depth.texture", frame.depth.texture, depth, frame.width, frame.height); !s) return s;
+  if (Status s = sized("depth.texture", frame.depth.texture, depth, frame.viewport.width, frame.viewport.height); !s)
+    return s;
   textures.depthSamples = frame.depth.multisampled ? std::clamp(depth.samples, 1, 16) : 1;
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     textures.shadows.emplace_back();

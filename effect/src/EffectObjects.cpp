@@ -119,10 +119,25 @@ double Effect::State::visitsPerRay() const {
 
 // ---------------------------------------------------------------------------------------------------------------------
 
-Mat4 mat4(const float* columnMajor) {
+namespace {
+
+template <typename Number>
+Mat4 copyOf(const Number* elements, std::size_t row, std::size_t column) {
   Mat4 m{};
-  std::copy(columnMajor, columnMajor + 16, m.begin());
+  for (std::size_t c = 0; c < 4; ++c)
+    for (std::size_t r = 0; r < 4; ++r)
+      m[4 * c + r] = static_cast<double>(elements[column * c + row * r]);
   return m;
 }
+
+} // namespace
+
+Mat4 mat4(const float* columnMajor) { return copyOf(columnMajor, 1, 4); }
+
+Mat4 mat4(const double* columnMajor) { return copyOf(columnMajor, 1, 4); }
+
+Mat4 mat4RowMajor(const float* rowMajor) { return copyOf(rowMajor, 4, 1); }
+
+Mat4 mat4RowMajor(const double* rowMajor) { return copyOf(rowMajor, 4, 1); }
 
 } // namespace tyndall

@@ -112,8 +112,8 @@ FrameRenderer::FrameRenderer(const Options& options)
 
   const host::Bounds bounds = host::boundsOf(scene_, host::poseAt(scene_, 0));
   frame_.medium = options.medium ? host::loadMedium(*options.medium) : host::mediumOf(scene_, bounds, notes_);
-  frame_.width = surfaces_.width();
-  frame_.height = surfaces_.height();
+  frame_.viewport.width = surfaces_.width();
+  frame_.viewport.height = surfaces_.height();
   frame_.colour = composite_.colour();
   frame_.depth.texture = surfaces_.depth();
   frame_.output.inscatter = inscatter_.name();
@@ -182,7 +182,8 @@ bool FrameRenderer::isKeptOut(const tyndall::Light& light) {
   frame.settings = tyndall::settingsOf(tyndall::Profile::High);
   frame.reuse = {};
   renderEffect(frame);
-  const std::vector<float> inscatter = host::readColour(inscatter_.name(), frame.width, frame.height, 3);
+  const std::vector<float> inscatter =
+      host::readColour(inscatter_.name(), frame.viewport.width, frame.viewport.height, 3);
   return std::all_of(inscatter.begin(), inscatter.end(), [](float value) { return value == 0; });
 }
 
@@ -221,8 +222,8 @@ void FrameRenderer::restoreColour() const {
   functions.BindFramebuffer(GL_READ_FRAMEBUFFER, surfaces_.framebuffer());
   functions.BindFramebuffer(GL_DRAW_FRAMEBUFFER, composite_.framebuffer());
   functions.Disable(GL_SCISSOR_TEST);
-  functions.BlitFramebuffer(0, 0, frame_.width, frame_.height, 0, 0, frame_.width, frame_.height, GL_COLOR_BUFFER_BIT,
-                            GL_NEAREST);
+  functions.BlitFramebuffer(0, 0, frame_.viewport.width, frame_.viewport.height, 0, 0, frame_.viewport.width,
+                            frame_.viewport.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   functions.BindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
@@ -300,11 +301,11 @@ Measurement FrameRenderer::render(int frame) {
 
 Picture FrameRenderer::readPicture() const {
   Picture picture;
-  picture.composite = host::readColour(composite_.colour(), frame_.width, frame_.height);
-  picture.inscatter = host::readColour(inscatter_.name(), frame_.width, frame_.height);
-  picture.transmittance = host::readColour(transmittance_.name(), frame_.width, frame_.height);
-  picture.z =
-      viewZ(host::readDepth(surfaces_.depth(), frame_.width, frame_.height), frame_.camera, options_.reversedDepth);
+  picture.composite = host::readColour(composite_.colour(), frame_.viewport.width, frame_.viewport.height);
+  picture.inscatter = host::readColour(inscatter_.name(), frame_.viewport.width, frame_.viewport.height);
+  picture.transmittance = host::readColour(transmittance_.name(), frame_.viewport.width, frame_.viewport.height);
+  picture.z = viewZ(host::readDepth(surfaces_.depth(), frame_.viewport.width, frame_.viewport.height), frame_.camera,
+                    options_.reversedDepth);
   throwGlErrors();
   return picture;
 }

@@ -55,7 +55,7 @@ public:
 private:
   // The textures, by the names of effect/src/Targets.cpp.
   Read sliceTable(double n) const { return {GL_RGBA32F, shape_.slices, 4, n}; }
-  Read sceneDepth(double n) const { return {GL_R32F, frame_.width, frame_.height, n}; }
+  Read sceneDepth(double n) const { return {GL_R32F, frame_.viewport.width, frame_.viewport.height, n}; }
   Read shadowMap(double n) const { return {GL_R32F, shadowSize_.x, shadowSize_.y, n}; }
   Read sampleEnds(double n) const { return {GL_R32F, shape_.slices, samples_, n}; }
   Read marks(double n) const { return {GL_RGBA16, shape_.slices, samples_ / 64, n}; }
@@ -125,10 +125,15 @@ private:
 
   std::vector<Pass> pixelPasses() const {
     const auto fixups = static_cast<double>(counts_.fixupPixels);
-    const int rows = std::max(1, static_cast<int>(std::ceil(fixups / frame_.width)));
+    const int rows = std::max(1, static_cast<int>(std::ceil(fixups / frame_.viewport.width)));
     const std::vector<GLenum> colour = {GL_RGBA16F};
-    return {{"unwarp", colour, frame_.width, frame_.height, {sceneDepth(1), sliceTable(2), epipolarInscatter(4)}, true},
-            {"fix-up", colour, frame_.width, rows, withVisits({sceneDepth(1), sliceTable(2)}, 1), true}};
+    return {{"unwarp",
+             colour,
+             frame_.viewport.width,
+             frame_.viewport.height,
+             {sceneDepth(1), sliceTable(2), epipolarInscatter(4)},
+             true},
+            {"fix-up", colour, frame_.viewport.width, rows, withVisits({sceneDepth(1), sliceTable(2)}, 1), true}};
   }
 
   const tyndall::Frame& frame_;
@@ -151,7 +156,7 @@ public:
       reads_.push_back(filled(read.format, read.width, heightOf(read)));
     for (const GLenum format : pass.targets)
       targets_.push_back(filled(format, pass.width, pass.height));
-    if (pass.blended) frame_.colour = filled(pass.targets[0], frame.width, frame.height);
+    if (pass.blended) frame_.colour = filled(pass.targets[0], frame.viewport.width, frame.viewport.height);
     draw(); // compiles the shader
   }
 

@@ -102,7 +102,8 @@ public:
     frame.output = {inscatter_.name(), transmittance_.name()};
     runner.render(frame);
     throwGlErrors();
-    return {frame.width, frame.height, host::readColour(inscatter_.name(), frame.width, frame.height, 3)};
+    return {frame.viewport.width, frame.viewport.height,
+            host::readColour(inscatter_.name(), frame.viewport.width, frame.viewport.height, 3)};
   }
 
   /// A timed run. Enters nothing if it fails.

@@ -185,7 +185,7 @@ public:
     counts.visitsPerRay = counting->statistics().visitsPerRay;
     if (settings_.technique != tyndall::Technique::Epipolar) return counts;
     renderBy(*counting, frame, tyndall::DebugView::MarchSamples);
-    const std::vector<float> shown = host::readColour(frame.colour, frame.width, frame.height, 3);
+    const std::vector<float> shown = host::readColour(frame.colour, frame.viewport.width, frame.viewport.height, 3);
     for (std::size_t i = 0; i < shown.size(); i += 3)
       counts.packedRays += 0.5 * shown[i] + shown[i + 1]; // red: breaks, green: bends
     return counts;

@@ -43,14 +43,15 @@ void renderTimed(Way& way, const tyndall::Frame& frame) {
 
 // The frame's colour by one way: what was in the texture does not count.
 std::vector<float> colourOf(const tyndall::Frame& frame) {
-  return host::readColour(frame.colour, frame.width, frame.height);
+  return host::readColour(frame.colour, frame.viewport.width, frame.viewport.height);
 }
 
 void clearColour(const tyndall::Frame& frame) {
-  const std::vector<float> grey(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height) * 4,
-                                0.5F);
+  const std::vector<float> grey(
+      static_cast<std::size_t>(frame.viewport.width) * static_cast<std::size_t>(frame.viewport.height) * 4, 0.5F);
   host::gl().BindTexture(GL_TEXTURE_2D, frame.colour);
-  host::gl().TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, frame.width, frame.height, GL_RGBA, GL_FLOAT, grey.data());
+  host::gl().TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, frame.viewport.width, frame.viewport.height, GL_RGBA, GL_FLOAT,
+                           grey.data());
 }
 
 // The largest difference, as a part of the picture's mean.

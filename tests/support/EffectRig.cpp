@@ -82,8 +82,8 @@ FrameRig::FrameRig(int width, int height, const std::vector<float>& depth, GLenu
   depthTexture_ = floatTexture(depthFormat, width, height, depth);
   inscatter_ = host::makeTexture2D(GL_RGBA32F, width, height);
   transmittance_ = host::makeTexture2D(GL_RGBA32F, width, height);
-  frame.width = width;
-  frame.height = height;
+  frame.viewport.width = width;
+  frame.viewport.height = height;
   frame.depth.texture = depthTexture_.name();
   frame.output = {inscatter_.name(), transmittance_.name()};
   frame.settings.technique = tyndall::Technique::Exact;
@@ -94,7 +94,8 @@ reference::ImageAnswer FrameRig::render() {
   INFO(status.message);
   REQUIRE(status);
   const auto read = [&](const host::GlTexture& texture) {
-    return reference::Image(frame.width, frame.height, host::readColour(texture.name(), frame.width, frame.height, 3));
+    return reference::Image(frame.viewport.width, frame.viewport.height,
+                            host::readColour(texture.name(), frame.viewport.width, frame.viewport.height, 3));
   };
   return {read(inscatter_), read(transmittance_)};
 }
@@ -106,8 +107,8 @@ reference::ImageAnswer FrameRig::reference(const std::vector<reference::ShadowIm
   scene.shadows = shadows;
   scene.medium = frame.medium;
   scene.filter = frame.settings.shadowFilter;
-  scene.width = frame.width;
-  scene.height = frame.height;
+  scene.width = frame.viewport.width;
+  scene.height = frame.viewport.height;
   scene.depth = depth_;
   return reference::mapExact(scene);
 }

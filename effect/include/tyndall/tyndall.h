@@ -14,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -35,8 +36,21 @@ inline constexpr int kMaxShadowViews = 6;   ///< shadow views of a light: cascad
 inline constexpr int kMaxLights = 16;       ///< lights of a frame
 inline constexpr int kMaxImageSize = 16384; ///< pixels per side of every texture
 
-/// Copies a column-major matrix of floats, as GLM and most engines store them.
+/// Copies a column-major matrix, as GLM and most engines store them.
 Mat4 mat4(const float* columnMajor);
+Mat4 mat4(const double* columnMajor);
+/// Copies a row-major matrix for column vectors: element (row r, column c) at [4 r + c], as OGRE stores them.
+Mat4 mat4RowMajor(const float* rowMajor);
+Mat4 mat4RowMajor(const double* rowMajor);
+/// Copies a glm::mat4 or glm::dmat4, or what is like them: matrix[column][row].
+template <typename Matrix, typename = typename Matrix::col_type>
+Mat4 mat4(const Matrix& matrix) {
+  Mat4 copy{};
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row)
+      copy[static_cast<std::size_t>(4 * column + row)] = static_cast<double>(matrix[column][row]);
+  return copy;
+}
 
 // ---------------------------------------------------------------------------------------------------------------------
 // Results
@@ -65,20 +79,55 @@ struct Status {
 /// How clip-space z maps to the depth buffer: glClipControl's GL_NEGATIVE_ONE_TO_ONE (default) or GL_ZERO_TO_ONE.
 enum class ClipDepth { NegativeOneToOne, ZeroToOne };
 
+/// A part of a texture: texels, from column x and row y on.
+struct Rectangle {
+  int x = 0, y = 0;
+  int width = 0, height = 0;
+};
+
+/// What the values of a depth texture mean. All but Window: of a perspective view a distance from the eye or the light,
+/// of an orthographic one from its near plane.
+enum class DepthEncoding {
+  Window,      ///< what the projection, and glDepthRange (0, 1), leave in a depth buffer
+  Axial,       ///< DepthScale::offset + DepthScale::unit x value is the distance along the view's axis
+  Radial,      ///< the same is the distance itself; perspective views only
+  Logarithmic, ///< value = log(1 + constant w) / log(1 + constant far), w the distance along the axis; perspective
+};
+
+/// The measure of a DepthEncoding.
+struct DepthScale {
+  double unit = 1;   ///< Axial, Radial: world units of a value of 1, not 0: 1 for world units, the far plane's distance
+                     ///< for a map from 0 to 1
+  double offset = 0; ///< Axial, Radial: world units of a value of 0
+  double constant = 1; ///< Logarithmic: 1/world unit, > 0
+  double far = 0;      ///< Logarithmic: distance at which the value is 1, world units, > 0
+};
+
 /// The camera that rendered colour and depth. Perspective and orthographic projections, standard and reversed depth
 /// and an infinite far plane are read off the matrix. glDepthRange is taken to be (0, 1).
 struct Camera {
   Mat4 viewFromWorld = kIdentity; ///< invertible, affine
   Mat4 clipFromView = kIdentity;  ///< invertible (an infinite far plane is)
   ClipDepth clipDepth = ClipDepth::NegativeOneToOne;
+  /// By how many pixels clipFromView moves the image, for temporal antialiasing: to the right and up; |x|, |y| <= 16.
+  /// What is sampled along slices is sampled as without it, so that it neither flickers nor ends a reuse.
+  std::array<double, 2> jitter = {0, 0};
 };
 
-/// The engine's depth buffer. Depth at the far value is sky; a pixel whose depth is NaN is left as it is.
+/// The engine's depth buffer. Depth at the far value is sky, and where the encoding has none what lies at the far plane
+/// or beyond; a pixel whose depth is NaN is left as it is.
 struct SceneDepth {
-  std::uint32_t texture = 0; ///< GL_TEXTURE_2D or GL_TEXTURE_2D_MULTISAMPLE, a depth format or R32F, level 0
-  bool multisampled = false; ///< true for GL_TEXTURE_2D_MULTISAMPLE; inscatter is then the mean over a pixel's samples
+  std::uint32_t texture = 0; ///< GL_TEXTURE_2D, _2D_ARRAY, _2D_MULTISAMPLE or _2D_MULTISAMPLE_ARRAY, a depth format or
+                             ///< R32F, level 0
+  bool multisampled = false; ///< true for the multisampled; inscatter is then the mean over a pixel's samples
   std::uint64_t version =
       0; ///< of what this texture holds, for Frame::reuse: any number that differs says it changed; 0: not known
+  int layer = -1; ///< of an array; -1: it is none
+  /// Texels that show the frame's viewport. All 0: those of the viewport, in a texture as large as colour and outputs.
+  /// Pixel (i, j) of the viewport has the depth of texel x + floor((i + 0.5) width / viewport.width), and so in y.
+  Rectangle rectangle = {};
+  DepthEncoding encoding = DepthEncoding::Window; ///< R16F and RG32F, too, where it is another
+  DepthScale scale = {};
 };
 
 enum class LightKind { Directional, Point, Spot };
@@ -92,18 +141,33 @@ enum class LightKind { Directional, Point, Spot };
 struct ShadowView {
   Mat4 clipFromWorld = kIdentity; ///< invertible; standard or reversed depth is read off the matrix
   int layer = 0;                  ///< array layer, 0 for a GL_TEXTURE_2D
+  Rectangle rectangle = {}; ///< texels of the layer that show the view, an atlas's tile, say; all 0: the whole layer
+};
+
+/// The six views of a cube map: those that GL's faces have, around Light::position, with GL's order and orientation
+/// (GL_TEXTURE_CUBE_MAP_POSITIVE_X first), each drawn with a field of view of 90 degrees and y downwards, as a cube map
+/// is sampled.
+struct CubeMap {
+  bool enabled = false; ///< the texture is a GL_TEXTURE_CUBE_MAP, or with ShadowMap::array a GL_TEXTURE_CUBE_MAP_ARRAY
+  int index = 0;        ///< which cube of an array
+  double nearDistance = 0;    ///< of the faces' near plane, world units, > 0
+  double farDistance = 0;     ///< of their far plane, > nearDistance, may be infinite
+  bool reversedDepth = false; ///< DepthEncoding::Window: 1 at the near plane and 0 at the far plane
 };
 
 /// A light's shadow map: depth as seen from the light, compare mode on or off. A texel at or beyond the far value, or
 /// NaN, blocks nothing; one that is nearer than the near plane blocks everything behind that.
 struct ShadowMap {
-  std::uint32_t texture =
-      0;              ///< GL_TEXTURE_2D or GL_TEXTURE_2D_ARRAY, a depth format or R32F; 0: nothing blocks the light
-  bool array = false; ///< true for GL_TEXTURE_2D_ARRAY, which several views need
+  std::uint32_t texture = 0; ///< GL_TEXTURE_2D, _2D_ARRAY, _CUBE_MAP or _CUBE_MAP_ARRAY; a depth format, R16F, R32F or
+                             ///< RG32F, whose first channel is read; 0: nothing blocks the light
+  bool array = false;        ///< true for GL_TEXTURE_2D_ARRAY and GL_TEXTURE_CUBE_MAP_ARRAY
   ClipDepth clipDepth = ClipDepth::NegativeOneToOne;
   std::vector<ShadowView>
       views; ///< 1 to 6: 1-4 cascades (finest first) for a directional light, 1 for a spot, 6 for a point
   std::uint64_t version = 0; ///< of what these textures, the glass map's too, hold, as SceneDepth::version
+  DepthEncoding encoding = DepthEncoding::Window; ///< not Logarithmic
+  DepthScale scale = {};
+  CubeMap cube = {}; ///< in place of views
 };
 
 /// Stained glass seen from the light through the same views as the shadow map. Light is tinted behind the glass.
@@ -299,18 +363,20 @@ struct MovingObject {
 };
 
 /// Textures of the engine's own to write instead of, or besides, blending into Frame::colour. GL_TEXTURE_2D, a float
-/// colour format (RGBA16F, RGBA32F, R11F_G11F_B10F, RGB16F, RGB32F), the size of Frame::width x height.
+/// colour format (RGBA16F, RGBA32F, R11F_G11F_B10F, RGB16F, RGB32F), as large as colour.
 struct Output {
   std::uint32_t inscatter = 0;     ///< receives the inscattered radiance; 0: not wanted
   std::uint32_t transmittance = 0; ///< receives T(d) per channel; 0: not wanted
+  int layer = -1;                  ///< of both, if they are GL_TEXTURE_2D_ARRAYs; -1: they are GL_TEXTURE_2Ds
 };
 
 /// All that one render() call reads. Every texture keeps its parameters; the effect binds samplers of its own.
 struct Frame {
-  int width = 0; ///< pixels, 1 to 16384
-  int height = 0;
-  std::uint32_t colour =
-      0; ///< back buffer, GL_TEXTURE_2D, linear HDR radiance in a float format: blended in place; 0 only with an Output
+  /// Pixels of colour and outputs that the camera's image fills, 1 to 16384 wide and high; no other is read or written.
+  Rectangle viewport;
+  std::uint32_t colour = 0; ///< back buffer, GL_TEXTURE_2D or GL_TEXTURE_2D_ARRAY, linear HDR radiance in a float
+                            ///< format: blended in place; 0 only with an Output
+  int colourLayer = -1;     ///< of an array; -1: colour is none
   SceneDepth depth;
   Camera camera;
   std::vector<Light> lights; ///< at most 16
@@ -381,6 +447,9 @@ struct Statistics {
   double visitsPerRay = 0;
   /// Config::tuning, with what the effect took where that left it the choice, or where the context has no other.
   Tuning tuning = {};
+  /// What is allowed but seldom meant, and what is probably wrong with the picture then: a line each, as
+  /// Status::message.
+  std::vector<std::string> warnings = {};
 };
 
 /// Resolves a GL function by name, as glfwGetProcAddress or eglGetProcAddress do.
@@ -406,6 +475,10 @@ struct Config {
   ProgramStore programs = {};
   StateMode state = StateMode::Restore;
   Tuning tuning = {};
+  /// Compares scene depth and shadow maps by a small extra pass a frame, and warns (Statistics::warnings) where they
+  /// cannot show one scene: what a wrong matrix, projection or encoding comes to. For while one integrates.
+  bool checkInputs = false;
+  bool warningsAreErrors = false; ///< InvalidFrame, and nothing is drawn, for what would be a warning
 };
 
 /// How far Effect::prepare() is.

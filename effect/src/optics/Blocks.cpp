@@ -76,8 +76,8 @@ void setCameraRays(blocks::FrameBlock& block, const Frame& frame) {
   const bool reversed = isReversed(depthClipFromWorld, forward);
   const double far = reversed ? 0 : 1, near = 1 - far;
   glm::dvec4 corner = cameraFromDepthClip * glm::dvec4(0, 0, far, 1);
-  glm::dvec4 stepX = cameraFromDepthClip[0] * (2.0 / frame.width);
-  glm::dvec4 stepY = cameraFromDepthClip[1] * (2.0 / frame.height);
+  glm::dvec4 stepX = cameraFromDepthClip[0] * (2.0 / frame.viewport.width);
+  glm::dvec4 stepY = cameraFromDepthClip[1] * (2.0 / frame.viewport.height);
   glm::dvec4 step = cameraFromDepthClip[2] * (near - far);
   // Any common factor cancels; this one makes float32's range irrelevant. The clip w of what is seen must be positive.
   double scale = glm::length(glm::dvec3(corner));
@@ -157,7 +157,7 @@ blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
   block.constituentCount = static_cast<int>(shares.size());
   block.depthSampleCount = sizes.depthSamples;
   block.isMultisampled = frame.depth.multisampled ? 1 : 0;
-  block.frameSize = {frame.width, frame.height};
+  block.frameSize = {frame.viewport.width, frame.viewport.height};
   return block;
 }
 

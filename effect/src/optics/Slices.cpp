@@ -49,9 +49,10 @@ dvec3 epipoleOf(const Frame& frame, const Light& light) {
   const dvec4 clip = light.kind == LightKind::Directional
                          ? clipFromWorld * dvec4(-glm::normalize(toGlm(light.direction)), 0)
                          : clipFromWorld * dvec4(toGlm(light.position), 1);
-  const dvec3 window(0.5 * (clip.x + clip.w) * frame.width, 0.5 * (clip.y + clip.w) * frame.height, clip.w);
-  const double size =
-      std::max({std::abs(window.x) / frame.width, std::abs(window.y) / frame.height, std::abs(window.z)});
+  const dvec3 window(0.5 * (clip.x + clip.w) * frame.viewport.width, 0.5 * (clip.y + clip.w) * frame.viewport.height,
+                     clip.w);
+  const double size = std::max(
+      {std::abs(window.x) / frame.viewport.width, std::abs(window.y) / frame.viewport.height, std::abs(window.z)});
   return size > 0 ? window / size : dvec3(0, 0, 1); // any factor cancels; a light at the eye has no epipole
 }
 
@@ -88,7 +89,8 @@ struct CameraRays {
 
   explicit CameraRays(const Frame& frame)
       : origin(cameraOrigin(frame.camera)), orthographic(isOrthographic(toGlm(frame.camera.clipFromView))),
-        forward(-glm::transpose(toGlm(frame.camera.viewFromWorld))[2]), size(frame.width, frame.height) {
+        forward(-glm::transpose(toGlm(frame.camera.viewFromWorld))[2]),
+        size(frame.viewport.width, frame.viewport.height) {
     const glm::dmat4 clip =
         depthFromClip(frame.camera.clipDepth) * toGlm(frame.camera.clipFromView) * toGlm(frame.camera.viewFromWorld);
     cameraFromClip = glm::inverse(glm::translate(clip, origin));
@@ -193,7 +195,7 @@ void setStored(blocks::EpipolarBlock& block, const Frame& frame, const Light& li
 
 SliceTable makeSlices(const Frame& frame, const Light& light, int shadowWidth, int shadowHeight) {
   const int slices = frame.settings.slices, samples = frame.settings.samples;
-  const Border border(dvec2(frame.width, frame.height));
+  const Border border(dvec2(frame.viewport.width, frame.viewport.height));
   const dvec3 epipole = epipoleOf(frame, light);
   const std::array<bool, 4> exits = exitSides(epipole, border);
   // The exit sides are neighbours; the first is one whose predecessor is none.

@@ -67,8 +67,8 @@ float partOf(float most, std::size_t lights) { return most / static_cast<float>(
 FramePlanner::FramePlanner(const PlanInputs& inputs, Allocator& allocator, PlannedFrame& out)
     : in_(inputs), frame_(inputs.frame), allocator_(allocator), out_(out),
       passes_(allocator, out.plan, inputs.targets, inputs.tuning) {
-  passes_.extent.width = frame_.width;
-  passes_.extent.height = frame_.height;
+  passes_.extent.width = frame_.viewport.width;
+  passes_.extent.height = frame_.viewport.height;
   passes_.extent.wideColour = inputs.textures.colourMax >= kLargestFloat;
   passes_.variant.dualSource = inputs.tuning.compositing == Compositing::DualSource;
   passes_.paths.depthSamples = inputs.textures.depthSamples;

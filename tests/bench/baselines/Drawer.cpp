@@ -225,14 +225,14 @@ void Drawer::attachLayers(GLuint volume, int firstLayer, int layers, GLuint last
 void Drawer::attachFinal(const tyndall::Frame& frame, bool first) const {
   const GladGLContext& gl = host::gl();
   if (!frame.output.inscatter) {
-    attach({frame.colour}, frame.width, frame.height);
+    attach({frame.colour}, frame.viewport.width, frame.viewport.height);
     gl.Enable(GL_BLEND);
     gl.BlendFunc(GL_ONE, first ? GL_SRC1_COLOR : GL_ONE);
     return;
   }
   std::vector<GLuint> outputs = {frame.output.inscatter};
   if (first && frame.output.transmittance) outputs.push_back(frame.output.transmittance);
-  attach(outputs, frame.width, frame.height);
+  attach(outputs, frame.viewport.width, frame.viewport.height);
   if (first) return;
   gl.Enable(GL_BLEND);
   gl.BlendFunc(GL_ONE, GL_ONE);

@@ -21,8 +21,10 @@ dvec3 epipoleOf(const tyndall::Frame& frame, const tyndall::Light& light) {
       light.kind == tyndall::LightKind::Directional
           ? clipFromWorld * dvec4(-glm::normalize(dvec3(light.direction[0], light.direction[1], light.direction[2])), 0)
           : clipFromWorld * dvec4(light.position[0], light.position[1], light.position[2], 1);
-  const dvec3 window(0.5 * (clip.x + clip.w) * frame.width, 0.5 * (clip.y + clip.w) * frame.height, clip.w);
-  return window / std::max({std::abs(window.x) / frame.width, std::abs(window.y) / frame.height, std::abs(window.z)});
+  const dvec3 window(0.5 * (clip.x + clip.w) * frame.viewport.width, 0.5 * (clip.y + clip.w) * frame.viewport.height,
+                     clip.w);
+  return window / std::max({std::abs(window.x) / frame.viewport.width, std::abs(window.y) / frame.viewport.height,
+                            std::abs(window.z)});
 }
 
 /// A point of the border: bottom, right, top and left side in turn from the low corner.
@@ -47,7 +49,7 @@ dvec2 entryOf(const dvec3& epipole, const dvec2& low, const dvec2& high, const d
 EpipolarLines::EpipolarLines(const tyndall::Frame& frame, const tyndall::Light& light, int lines, int samplesPerLine)
     : samples(samplesPerLine) {
   const dvec3 e = epipoleOf(frame, light);
-  const dvec2 low(0.5), size = dvec2(frame.width, frame.height) - 1.0, high = low + size;
+  const dvec2 low(0.5), size = dvec2(frame.viewport.width, frame.viewport.height) - 1.0, high = low + size;
   const double side = e.z < 0 ? -1 : 1;
   const dvec2 atLow = side * (e.z * low - dvec2(e)), atHigh = side * (e.z * high - dvec2(e));
   const std::array<bool, 4> exits = {atLow.y < 0, atHigh.x > 0, atHigh.y > 0, atLow.x < 0};

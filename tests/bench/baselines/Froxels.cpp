@@ -18,8 +18,8 @@ std::vector<float> readDepth(const tyndall::Frame& frame) {
   host::gl().ActiveTexture(GL_TEXTURE0 + kOwn);
   host::gl().BindTexture(GL_TEXTURE_2D, frame.depth.texture);
   host::gl().GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_DEPTH_SIZE, &depthBits);
-  return depthBits > 0 ? host::readDepth(frame.depth.texture, frame.width, frame.height)
-                       : host::readColour(frame.depth.texture, frame.width, frame.height, 1);
+  return depthBits > 0 ? host::readDepth(frame.depth.texture, frame.viewport.width, frame.viewport.height)
+                       : host::readColour(frame.depth.texture, frame.viewport.width, frame.viewport.height, 1);
 }
 
 /// The farthest surface: engines have the volume's far distance set by hand to suit the scene.
@@ -28,10 +28,10 @@ float farthestEnd(const tyndall::Frame& frame) {
   const glm::dmat4 viewFromClip = glm::inverse(toGlm(frame.camera.clipFromView));
   const bool zeroToOne = frame.camera.clipDepth == tyndall::ClipDepth::ZeroToOne;
   double farthest = 0;
-  for (int y = 0; y < frame.height; ++y)
-    for (int x = 0; x < frame.width; ++x) {
-      const double depth = depths[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + x];
-      const glm::dvec4 clip((2 * x + 1.0) / frame.width - 1, (2 * y + 1.0) / frame.height - 1,
+  for (int y = 0; y < frame.viewport.height; ++y)
+    for (int x = 0; x < frame.viewport.width; ++x) {
+      const double depth = depths[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.viewport.width) + x];
+      const glm::dvec4 clip((2 * x + 1.0) / frame.viewport.width - 1, (2 * y + 1.0) / frame.viewport.height - 1,
                             zeroToOne ? depth : 2 * depth - 1, 1);
       const glm::dvec4 view = viewFromClip * clip;
       const double end = glm::length(glm::dvec3(view) / view.w);

@@ -10,8 +10,8 @@ public:
 
 private:
   void draw(const tyndall::Frame& frame) override {
-    width_ = (frame.width + 1) / 2;
-    height_ = (frame.height + 1) / 2;
+    width_ = (frame.viewport.width + 1) / 2;
+    height_ = (frame.viewport.height + 1) / 2;
     end_ = drawer().target("end", GL_R32F, width_, height_);
     const GLuint inscatter = drawer().target("inscatter", GL_RGBA16F, width_, height_);
     const GLuint other = drawer().target("blurred", GL_RGBA16F, width_, height_);

@@ -49,17 +49,19 @@ public:
   }
 
   dvec3 rayThrough(const dvec2& p) const {
-    const dvec4 q = cameraFromClip_ * dvec4(2.0 * p / dvec2(frame_.width, frame_.height) - 1.0, clipDepthOf(0.5), 1);
+    const dvec4 q = cameraFromClip_ *
+                    dvec4(2.0 * p / dvec2(frame_.viewport.width, frame_.viewport.height) - 1.0, clipDepthOf(0.5), 1);
     return glm::normalize(dvec3(q) / q.w);
   }
 
   /// Distance to the surface at a position, as its nearest pixel has it.
   double endAt(const dvec2& p) const {
-    const int x = std::clamp(static_cast<int>(p.x), 0, frame_.width - 1);
-    const int y = std::clamp(static_cast<int>(p.y), 0, frame_.height - 1);
-    const float depth = depth_[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_.width) + x];
+    const int x = std::clamp(static_cast<int>(p.x), 0, frame_.viewport.width - 1);
+    const int y = std::clamp(static_cast<int>(p.y), 0, frame_.viewport.height - 1);
+    const float depth = depth_[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_.viewport.width) + x];
     if (depth == sky_) return std::min(frame_.medium.farDistance, 1e30);
-    const dvec4 q = cameraFromClip_ * dvec4(2.0 * p / dvec2(frame_.width, frame_.height) - 1.0, clipDepthOf(depth), 1);
+    const dvec4 q = cameraFromClip_ *
+                    dvec4(2.0 * p / dvec2(frame_.viewport.width, frame_.viewport.height) - 1.0, clipDepthOf(depth), 1);
     return glm::length(dvec3(q) / q.w);
   }
 
@@ -101,8 +103,8 @@ private:
     host::gl().ActiveTexture(GL_TEXTURE0 + kOwn);
     host::gl().BindTexture(GL_TEXTURE_2D, frame.depth.texture);
     host::gl().GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_DEPTH_SIZE, &bits);
-    return bits > 0 ? host::readDepth(frame.depth.texture, frame.width, frame.height)
-                    : host::readColour(frame.depth.texture, frame.width, frame.height, 1);
+    return bits > 0 ? host::readDepth(frame.depth.texture, frame.viewport.width, frame.viewport.height)
+                    : host::readColour(frame.depth.texture, frame.viewport.width, frame.viewport.height, 1);
   }
 
   const tyndall::Frame& frame_;

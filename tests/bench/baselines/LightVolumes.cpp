@@ -37,11 +37,11 @@ private:
   std::size_t bytesOfIndices() const { return static_cast<std::size_t>(indexCount_) * sizeof(std::uint32_t); }
 
   void draw(const tyndall::Frame& frame) override {
-    const GLuint faces = drawer().target("faces", GL_RGBA32F, frame.width, frame.height);
+    const GLuint faces = drawer().target("faces", GL_RGBA32F, frame.viewport.width, frame.viewport.height);
     for (std::size_t i = 0; i < frame.lights.size(); ++i)
       drawer().pass("faces" + lightSuffix(i), [&] {
         drawer().selectLight(frame, frame.lights[i]);
-        drawer().attach({faces}, frame.width, frame.height);
+        drawer().attach({faces}, frame.viewport.width, frame.viewport.height);
         drawLight(frame, frame.lights[i], i == 0);
       });
     drawer().pass("apply", [&] {

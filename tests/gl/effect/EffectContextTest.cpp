@@ -223,7 +223,7 @@ TEST_CASE("an effect leaves no GL object behind") {
     frame.output.transmittance = 0; // so that a target of the effect's own is needed
     CHECK(effect->render(frame));
     CHECK(effect->statistics().bytes >= 16 * 24 * 16);
-    frame.width = 0;
+    frame.viewport.width = 0;
     CHECK_FALSE(effect->render(frame));
   }
   {

@@ -42,7 +42,7 @@ reference::Image flipped(const reference::Image& image, bool x, bool y) {
 // border unless both axes are mirrored.
 void mirrorPicture(tests::SceneRig& scene, bool x, bool y) {
   const glm::dmat4 mirror = glm::scale(glm::dmat4(1), glm::dvec3(x ? -1 : 1, y ? -1 : 1, 1));
-  const int width = scene.frame.width, height = scene.frame.height;
+  const int width = scene.frame.viewport.width, height = scene.frame.viewport.height;
   const std::vector<float> depth = scene.depth();
   std::vector<float> result;
   for (int j = 0; j < height; ++j)

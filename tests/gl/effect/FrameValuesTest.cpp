@@ -33,8 +33,16 @@ const std::vector<double> kNotFinite = {kNan, kInfinity, kMinusInfinity};
 const std::vector<double> kNotFiniteOrNegative = {kNan, kInfinity, kMinusInfinity, -1, -1e-30};
 
 const std::vector<NumberRule> kNumberRules = {
-    {"width", 1, [](Frame& f, int, double v) { f.width = static_cast<int>(v); }, {0, -1, 16385, 2e9}, "1 to 16384"},
-    {"height", 1, [](Frame& f, int, double v) { f.height = static_cast<int>(v); }, {0, -1, 16385, 2e9}, "1 to 16384"},
+    {"viewport.width",
+     1,
+     [](Frame& f, int, double v) { f.viewport.width = static_cast<int>(v); },
+     {0, -1, 16385, 2e9},
+     "1 to 16384"},
+    {"viewport.height",
+     1,
+     [](Frame& f, int, double v) { f.viewport.height = static_cast<int>(v); },
+     {0, -1, 16385, 2e9},
+     "1 to 16384"},
     {"camera.viewFromWorld", 16, [](Frame& f, int i, double v) { put(f.camera.viewFromWorld, i, v); }, kNotFinite,
      "finite"},
     {"camera.clipFromView", 16, [](Frame& f, int i, double v) { put(f.camera.clipFromView, i, v); }, kNotFinite,

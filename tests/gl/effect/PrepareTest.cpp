@@ -126,7 +126,7 @@ TEST_CASE("prepare refuses what render refuses, in the same words") {
   const FaultyContext context;
   const std::unique_ptr<Effect> effect = newEffect({context.loader()});
   const std::vector<std::function<void(Frame&)>> breaks = {
-      [](Frame& f) { f.width = 0; },
+      [](Frame& f) { f.viewport.width = 0; },
       [](Frame& f) {
         f.colour = 0;
         f.output = {};

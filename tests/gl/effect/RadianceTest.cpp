@@ -41,7 +41,8 @@ struct Ceiling {
     rig.frame.medium = {{{{1e-3F, 1e-3F, 1e-3F}, Phase::Isotropic, 0}}, {}};
   }
   std::vector<float> render(std::size_t lights, const Output& output) {
-    const auto pixels = static_cast<std::size_t>(rig.frame.width) * static_cast<std::size_t>(rig.frame.height);
+    const auto pixels =
+        static_cast<std::size_t>(rig.frame.viewport.width) * static_cast<std::size_t>(rig.frame.viewport.height);
     const host::GlTexture colour = rig.makeColour(GL_RGBA16F, std::vector<float>(4 * pixels, 1));
     Frame frame = rig.frame;
     frame.lights.resize(lights);
@@ -49,9 +50,10 @@ struct Ceiling {
     const Status status = tests::testEffect().render(frame);
     INFO(status.message);
     REQUIRE(status);
-    std::vector<float> values = host::readColour(colour.name(), frame.width, frame.height, 3);
+    std::vector<float> values = host::readColour(colour.name(), frame.viewport.width, frame.viewport.height, 3);
     if (output.inscatter) {
-      const std::vector<float> written = host::readColour(output.inscatter, frame.width, frame.height, 3);
+      const std::vector<float> written =
+          host::readColour(output.inscatter, frame.viewport.width, frame.viewport.height, 3);
       values.insert(values.end(), written.begin(), written.end());
     }
     return values;
@@ -106,8 +108,9 @@ TEST_CASE("a format's ceiling does not depend on lights that add nothing") {
     Ceiling ceiling(others, casters);
     for (const Technique technique : {Technique::Exact, Technique::Epipolar}) {
       ceiling.rig.frame.settings.technique = technique;
-      const host::GlTexture half = tests::floatTexture(GL_RGBA16F, ceiling.rig.frame.width, ceiling.rig.frame.height,
-                                                       std::vector<float>(4 * 24 * 16, 0));
+      const host::GlTexture half =
+          tests::floatTexture(GL_RGBA16F, ceiling.rig.frame.viewport.width, ceiling.rig.frame.viewport.height,
+                              std::vector<float>(4 * 24 * 16, 0));
       for (const Output& output : {Output{}, Output{half.name(), 0}}) {
         const std::vector<float> alone = ceiling.render(1, output), all = ceiling.render(kMaxLights, output);
         CAPTURE(others[0], static_cast<int>(casters), static_cast<int>(technique), output.inscatter);

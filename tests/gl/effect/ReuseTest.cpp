@@ -61,11 +61,11 @@ Light sunOverhead() {
 // What DebugView::Redrawn shows of the frame, which is drawn: true for red.
 std::vector<bool> maskOf(tests::ShaftRig& rig, Effect& effect = tests::testEffect()) {
   Frame& frame = rig.scene.frame;
-  const auto pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
+  const auto pixels = static_cast<std::size_t>(frame.viewport.width) * static_cast<std::size_t>(frame.viewport.height);
   const host::GlTexture colour = rig.scene.makeColour(GL_RGBA32F, std::vector<float>(4 * pixels, 0.25F));
   frame.settings.debugView = DebugView::Redrawn;
   rig.scene.render(effect);
-  const std::vector<float> rgba = host::readColour(colour.name(), frame.width, frame.height);
+  const std::vector<float> rgba = host::readColour(colour.name(), frame.viewport.width, frame.viewport.height);
   frame.settings.debugView = DebugView::Composite;
   frame.colour = 0;
   std::vector<bool> mask;

@@ -141,8 +141,8 @@ std::vector<ShadowView> shadowViewsOf(const Light& light) {
 
 SceneRig::SceneRig(int width, int height, RigContext context) : distances(wallDistances(width, height)) {
   if (context == RigContext::Test) testContext();
-  frame.width = width;
-  frame.height = height;
+  frame.viewport.width = width;
+  frame.viewport.height = height;
   frame.settings.technique = Technique::Exact;
   frame.camera.viewFromWorld = lookAt({0, 1, 6}, {0.1, 0.4, 0});
   frame.medium.constituents = {{{0.05F, 0.1F, 0.2F}, Phase::HenyeyGreenstein, 0.3F},
@@ -168,8 +168,9 @@ void SceneRig::setConvention(const DepthConvention& convention, GLenum format) {
 }
 
 void SceneRig::setDepth(const std::vector<float>& depth, GLenum format) {
-  depthTexture_ = floatTexture(format, frame.width, frame.height, depth);
-  depth_ = format == GL_R32F ? depth : host::readDepth(depthTexture_.name(), frame.width, frame.height);
+  depthTexture_ = floatTexture(format, frame.viewport.width, frame.viewport.height, depth);
+  depth_ =
+      format == GL_R32F ? depth : host::readDepth(depthTexture_.name(), frame.viewport.width, frame.viewport.height);
   samples_ = 1;
   frame.depth = {depthTexture_.name(), false};
 }
@@ -178,7 +179,7 @@ int SceneRig::setMultisampledDepth(int samples, GLenum format, const std::functi
   host::Program program("copy depth", kFullScreen, kCopyDepth);
   const host::GlVertexArray vertexArray = host::makeVertexArray();
   const host::GlFramebuffer framebuffer = host::makeFramebuffer();
-  depthTexture_ = host::makeTexture2DMultisample(format, frame.width, frame.height, samples);
+  depthTexture_ = host::makeTexture2DMultisample(format, frame.viewport.width, frame.viewport.height, samples);
   gl().GetTexLevelParameteriv(GL_TEXTURE_2D_MULTISAMPLE, 0, GL_TEXTURE_SAMPLES, &samples_);
   const bool isColour = format == GL_R32F;
   gl().BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
@@ -187,12 +188,12 @@ int SceneRig::setMultisampledDepth(int samples, GLenum format, const std::functi
   gl().DrawBuffer(isColour ? GL_COLOR_ATTACHMENT0 : GL_NONE);
   host::requireCompleteFramebuffer("multisampled depth");
   gl().BindVertexArray(vertexArray.name());
-  gl().Viewport(0, 0, frame.width, frame.height);
+  gl().Viewport(0, 0, frame.viewport.width, frame.viewport.height);
   gl().Enable(GL_SAMPLE_MASK);
   gl().Enable(GL_DEPTH_TEST);
   gl().DepthFunc(GL_ALWAYS);
   program.use();
-  const int pixels = frame.width * frame.height;
+  const int pixels = frame.viewport.width * frame.viewport.height;
   depth_.assign(countOf(pixels, samples_), 0);
   for (int sample = 0; sample < samples_; ++sample) {
     std::vector<float> values;
@@ -200,7 +201,7 @@ int SceneRig::setMultisampledDepth(int samples, GLenum format, const std::functi
       values.push_back(depthOf(pixel, sample));
       depth_[countOf(pixel, samples_) + static_cast<std::size_t>(sample)] = values.back();
     }
-    drawSample(program, sample, floatTexture(GL_R32F, frame.width, frame.height, values));
+    drawSample(program, sample, floatTexture(GL_R32F, frame.viewport.width, frame.viewport.height, values));
   }
   gl().SampleMaski(0, ~0U);
   gl().Disable(GL_SAMPLE_MASK);
@@ -248,8 +249,9 @@ void SceneRig::setShadow(std::size_t light, const reference::ShadowImage& image)
 }
 
 host::GlTexture SceneRig::makeColour(GLenum format, const std::vector<float>& rgba) {
-  host::GlTexture texture = host::makeTexture2D(format, frame.width, frame.height);
-  gl().TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, frame.width, frame.height, GL_RGBA, GL_FLOAT, rgba.data());
+  host::GlTexture texture = host::makeTexture2D(format, frame.viewport.width, frame.viewport.height);
+  gl().TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, frame.viewport.width, frame.viewport.height, GL_RGBA, GL_FLOAT,
+                     rgba.data());
   frame.colour = texture.name();
   return texture;
 }
@@ -263,7 +265,8 @@ reference::ImageAnswer SceneRig::render(Effect& effect) {
 
 reference::ImageAnswer SceneRig::outputs() const {
   const auto read = [&](const host::GlTexture& texture) {
-    return reference::Image(frame.width, frame.height, host::readColour(texture.name(), frame.width, frame.height, 3));
+    return reference::Image(frame.viewport.width, frame.viewport.height,
+                            host::readColour(texture.name(), frame.viewport.width, frame.viewport.height, 3));
   };
   return {read(inscatter_), read(transmittance_)};
 }
@@ -276,8 +279,8 @@ reference::ImageAnswer SceneRig::reference() const {
   scene.curves = curves;
   scene.medium = frame.medium;
   scene.filter = frame.settings.shadowFilter;
-  scene.width = frame.width;
-  scene.height = frame.height;
+  scene.width = frame.viewport.width;
+  scene.height = frame.viewport.height;
   scene.samples = samples_;
   scene.depth = depth_;
   return reference::mapExact(scene);

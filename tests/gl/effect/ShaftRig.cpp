@@ -200,11 +200,11 @@ void ShaftRig::setConvention(const DepthConvention& convention) {
 
 void ShaftRig::seeBoxes() {
   const Frame& frame = scene.frame;
-  const reference::CameraRays rays(frame.camera, frame.width, frame.height);
+  const reference::CameraRays rays(frame.camera, frame.viewport.width, frame.viewport.height);
   const glm::dmat4 viewFromWorld = reference::toMat4(frame.camera.viewFromWorld);
   scene.distances.clear();
-  for (int y = 0; y < frame.height; ++y)
-    for (int x = 0; x < frame.width; ++x) {
+  for (int y = 0; y < frame.viewport.height; ++y)
+    for (int x = 0; x < frame.viewport.width; ++x) {
       const reference::Ray ray = rays.ray(x, y);
       const double hit = hitDistance(moving_, ray.origin, ray.direction);
       scene.distances.push_back(std::isfinite(hit) ? -(viewFromWorld * glm::dvec4(ray.at(hit), 1)).z : kInfinity);
@@ -257,7 +257,7 @@ const std::vector<reference::Image>& ShaftRig::displaced() {
   for (const glm::dvec2& half : {glm::dvec2(1, 0), glm::dvec2(0, 1)}) { // in NDC of one pixel or texel: half of 2
     if (suns) { // a lamp's brightness would move with the picture
       Mat4& clip = scene.frame.camera.clipFromView;
-      clip = moved(clip, half / glm::dvec2(frame.width, frame.height));
+      clip = moved(clip, half / glm::dvec2(frame.viewport.width, frame.viewport.height));
       displaced_.push_back(picture(Technique::Exact));
       scene.frame = frame;
     }

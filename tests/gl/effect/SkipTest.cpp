@@ -84,7 +84,7 @@ bool anyRan() {
 std::vector<float> colours(const Frame& frame) {
   std::mt19937 random(3);
   std::vector<float> values;
-  for (int i = 0; i < 4 * frame.width * frame.height; ++i)
+  for (int i = 0; i < 4 * frame.viewport.width * frame.viewport.height; ++i)
     values.push_back(static_cast<float>(uniform(random, 0, 2)));
   return values;
 }
@@ -196,7 +196,7 @@ TEST_CASE("without a medium nothing runs, and without lights only the transmitta
     REQUIRE(tests::testEffect().render(frame));
     CHECK_FALSE(anyRan());
     CHECK(whySkipped("composite") == "the medium neither scatters nor absorbs");
-    CHECK(tests::bitEqual(host::readColour(colour.name(), frame.width, frame.height, 4), before));
+    CHECK(tests::bitEqual(host::readColour(colour.name(), frame.viewport.width, frame.viewport.height, 4), before));
 
     frame.medium = medium;
     Frame dark = frame;

@@ -22,12 +22,12 @@ const std::vector<LightKind> kKinds = {LightKind::Directional, LightKind::Point,
 Vec3 toVec3(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 reference::Ray pixelRay(const tests::SceneRig& rig) {
-  return reference::CameraRays(rig.frame.camera, rig.frame.width, rig.frame.height).ray(kX, kY);
+  return reference::CameraRays(rig.frame.camera, rig.frame.viewport.width, rig.frame.viewport.height).ray(kX, kY);
 }
 
 double surfaceDistance(const tests::SceneRig& rig) {
-  const reference::CameraRays rays(rig.frame.camera, rig.frame.width, rig.frame.height);
-  return rays.distance(kX, kY, rig.depth()[static_cast<std::size_t>(kY * rig.frame.width + kX)]);
+  const reference::CameraRays rays(rig.frame.camera, rig.frame.viewport.width, rig.frame.viewport.height);
+  return rays.distance(kX, kY, rig.depth()[static_cast<std::size_t>(kY * rig.frame.viewport.width + kX)]);
 }
 
 double median(std::vector<double> values) {

@@ -185,7 +185,7 @@ TEST_CASE("a state that is left: a frame that is refused leaves all as it was") 
   Stage stage(tests::frameCase("epipolar"));
   const std::unique_ptr<Effect> effect = newEffect(StateMode::Leave);
   Frame broken = stage.frame();
-  broken.width = 0;
+  broken.viewport.width = 0;
   const tests::Poison poison;
   const tests::GlState before = tests::captureGlState();
   const Status status = effect->render(broken);

@@ -130,7 +130,7 @@ tests::GlState left(tests::GlState state, const Frame& frame) {
     state.at("clip origin") = {GL_LOWER_LEFT};
     state.at("clip depth mode") = {GL_NEGATIVE_ONE_TO_ONE};
   }
-  state.at("viewport") = {0, 0, static_cast<double>(frame.width), static_cast<double>(frame.height)};
+  state.at("viewport") = {0, 0, static_cast<double>(frame.viewport.width), static_cast<double>(frame.viewport.height)};
   for (const std::string face : {"stencil ", "stencil back "}) {
     state.at(face + "func") = {GL_ALWAYS};
     state.at(face + "value mask") = state.at(face + "write mask") = {2147483647.0}; // all bits, as an integer
@@ -150,7 +150,8 @@ std::vector<double> leftOf(const std::string& row, const std::vector<double>& be
   if (query(GL_BLEND_SRC_RGB) || query(GL_BLEND_SRC_ALPHA)) return {GL_ONE};
   if (query(GL_BLEND_DST_RGB) || query(GL_BLEND_DST_ALPHA)) return {GL_ZERO};
   if (query(GL_BLEND_EQUATION_RGB) || query(GL_BLEND_EQUATION_ALPHA)) return {GL_FUNC_ADD};
-  if (row == "viewport[0]") return {0, 0, static_cast<double>(frame.width), static_cast<double>(frame.height)};
+  if (row == "viewport[0]")
+    return {0, 0, static_cast<double>(frame.viewport.width), static_cast<double>(frame.viewport.height)};
   for (const char* binding : {"[0]", "[1]", "[2]"})
     if (startsWith(row, "uniform binding") && row.find(binding) != std::string::npos) return {0};
   return before;

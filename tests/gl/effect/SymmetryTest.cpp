@@ -168,9 +168,10 @@ TEST_CASE("a mirrored scene gives the mirrored picture, with the map's texels mi
       rig.frame.camera.viewFromWorld =
           tests::toMat4(mirror * reference::toMat4(rig.frame.camera.viewFromWorld) * mirror);
       std::reverse(rig.distances.begin(), rig.distances.end()); // both ways, then rows back
-      for (int y = 0; y < rig.frame.height / 2; ++y)
-        std::swap_ranges(rig.distances.begin() + y * rig.frame.width, rig.distances.begin() + (y + 1) * rig.frame.width,
-                         rig.distances.begin() + (rig.frame.height - 1 - y) * rig.frame.width);
+      for (int y = 0; y < rig.frame.viewport.height / 2; ++y)
+        std::swap_ranges(rig.distances.begin() + y * rig.frame.viewport.width,
+                         rig.distances.begin() + (y + 1) * rig.frame.viewport.width,
+                         rig.distances.begin() + (rig.frame.viewport.height - 1 - y) * rig.frame.viewport.width);
       rig.setConvention(rig.convention());
       const reference::ImageAnswer answer = rig.render();
       CHECK(tests::difference(mirrored(answer.inscatter), expected.inscatter) <= 2e-5);

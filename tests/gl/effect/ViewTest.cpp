@@ -39,13 +39,15 @@ struct Picture {
 
 // Renders a view over a colour that it must replace, and whose alpha must stay.
 Picture pictureOf(tests::SceneRig& scene, DebugView view, Effect& effect = tests::testEffect()) {
-  const auto pixels = static_cast<std::size_t>(scene.frame.width) * static_cast<std::size_t>(scene.frame.height);
+  const auto pixels =
+      static_cast<std::size_t>(scene.frame.viewport.width) * static_cast<std::size_t>(scene.frame.viewport.height);
   const host::GlTexture colour = scene.makeColour(GL_RGBA32F, std::vector<float>(4 * pixels, kAlpha));
   scene.frame.settings.debugView = view;
   const Status status = effect.render(scene.frame);
   INFO(status.message);
   REQUIRE(status);
-  Picture picture{scene.frame.width, host::readColour(colour.name(), scene.frame.width, scene.frame.height)};
+  Picture picture{scene.frame.viewport.width,
+                  host::readColour(colour.name(), scene.frame.viewport.width, scene.frame.viewport.height)};
   for (std::size_t i = 0; i < pixels; ++i)
     REQUIRE(picture.rgba[4 * i + 3] == kAlpha);
   scene.frame.colour = 0;
@@ -154,7 +156,7 @@ TEST_CASE("the views of samples and march samples count every one of them") {
     const glm::dvec3 march = pictureOf(rig.scene, DebugView::MarchSamples).sum();
     const Statistics statistics = tests::testEffect().statistics();
     CAPTURE(static_cast<int>(kind), march.x, march.y, march.z);
-    CHECK(samples.x > rig.scene.frame.width);
+    CHECK(samples.x > rig.scene.frame.viewport.width);
     CHECK(samples.y == samples.x / 4);
     CHECK(samples.z == samples.x / 16);
     // One in sixteen of each slice, rounded up, is regular; the statistics count the packs of up to two others.

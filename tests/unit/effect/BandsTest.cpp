@@ -49,8 +49,8 @@ struct Planned {
   FramePlan plan;
 
   Planned(int width, int height, Technique technique) {
-    frame.width = width;
-    frame.height = height;
+    frame.viewport.width = width;
+    frame.viewport.height = height;
     frame.colour = 1;
     frame.depth.texture = 2;
     frame.camera.clipFromView = {1, 0, 0, 0, 0, 1.6, 0, 0, 0, 0, -1.01, -1, 0, 0, -0.2, 0};

@@ -15,7 +15,7 @@ const Profile kRising[] = {Profile::Performance, Profile::Balanced, Profile::Hig
 TEST_CASE("each profile's settings are ones that a frame may have") {
   for (const Profile profile : {Profile::Performance, Profile::Balanced, Profile::High, Profile::Reference}) {
     Frame frame;
-    frame.width = frame.height = 1;
+    frame.viewport.width = frame.viewport.height = 1;
     frame.colour = frame.depth.texture = 1;
     frame.camera.clipFromView = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1.002, -1, 0, 0, -0.2002, 0};
     frame.settings = settingsOf(profile);

@@ -56,8 +56,8 @@ dvec3 reachedPoint(const Light& light, Random& random) {
 // True if a camera ray runs through it: those of a perspective camera begin at the eye.
 bool isSeen(const Frame& frame, const Projection& p, const dvec3& point) {
   const Seen seen = seenAt(frame, point);
-  const bool inImage = seen.w > 0 && seen.window.x >= 0 && seen.window.x <= frame.width && seen.window.y >= 0 &&
-                       seen.window.y <= frame.height;
+  const bool inImage = seen.w > 0 && seen.window.x >= 0 && seen.window.x <= frame.viewport.width &&
+                       seen.window.y >= 0 && seen.window.y <= frame.viewport.height;
   const double near = p.convention.reversed ? 1 - seen.depth : seen.depth;
   return inImage && (!p.orthographic || near >= 0);
 }
@@ -257,10 +257,10 @@ TEST_CASE("no ray of a picture brings more than the brightest inscatter, and som
         const Frame one = placed(frame, {glm::dmat3(1), scale, dvec3(0)});
         const Light& light = one.lights[0];
         const double bound = brightestInscatter(one, light);
-        const reference::CameraRays rays(one.camera, one.width, one.height);
+        const reference::CameraRays rays(one.camera, one.viewport.width, one.viewport.height);
         CAPTURE(p.name, i, scale);
-        for (int y = 0; y < one.height; ++y)
-          for (int x = 0; x < one.width; ++x) {
+        for (int y = 0; y < one.viewport.height; ++y)
+          for (int x = 0; x < one.viewport.width; ++x) {
             const reference::Ray ray = rays.ray(x, y);
             if (light.kind != tyndall::LightKind::Directional) {
               const Seen place = seenAt(one, vec(light.position));

@@ -38,8 +38,8 @@ tyndall::Camera cameraOf(const Projection& projection, const dvec3& eye, const d
 
 tyndall::Frame frameOf(const tyndall::Camera& camera, int width, int height) {
   tyndall::Frame frame;
-  frame.width = width;
-  frame.height = height;
+  frame.viewport.width = width;
+  frame.viewport.height = height;
   frame.camera = camera;
   frame.medium.constituents = {{{0.04F, 0.06F, 0.1F}, tyndall::Phase::HenyeyGreenstein, 0.4F}};
   frame.medium.absorption = {0.01F, 0.02F, 0};
@@ -51,7 +51,7 @@ Seen seenAt(const tyndall::Frame& frame, const dvec3& point) {
   const glm::dvec4 clip = clipFromWorld * glm::dvec4(point, 1);
   const dvec3 ndc = dvec3(clip) / clip.w;
   const bool half = frame.camera.clipDepth == tyndall::ClipDepth::NegativeOneToOne;
-  return {{(0.5 * ndc.x + 0.5) * frame.width, (0.5 * ndc.y + 0.5) * frame.height},
+  return {{(0.5 * ndc.x + 0.5) * frame.viewport.width, (0.5 * ndc.y + 0.5) * frame.viewport.height},
           half ? 0.5 * ndc.z + 0.5 : ndc.z,
           clip.w};
 }

@@ -27,7 +27,7 @@ struct WorldRay {
 // The camera ray through a window position, from where view z is 0: the eye, if there is one.
 WorldRay rayThrough(const Frame& frame, const dvec2& window) {
   const dmat4 view = host::fromMat4(frame.camera.viewFromWorld), clip = host::fromMat4(frame.camera.clipFromView);
-  const dvec2 ndc = 2.0 * window / dvec2(frame.width, frame.height) - 1.0;
+  const dvec2 ndc = 2.0 * window / dvec2(frame.viewport.width, frame.viewport.height) - 1.0;
   const auto at = [&](double z) {
     const glm::dvec4 p = glm::inverse(clip) * glm::dvec4(ndc, z, 1);
     return dvec3(p) / p.w;

@@ -185,8 +185,8 @@ TEST_CASE("samples are numbered along a slice, no denser than pixels nor more th
   for (const int samples : {64, 8192}) {
     Frame frame = squareFrame();
     frame.settings.samples = samples;
-    frame.width *= 8;
-    frame.height *= 8;
+    frame.viewport.width *= 8;
+    frame.viewport.height *= 8;
     const SliceTable table = makeSlices(frame, lampAt({20, 4}), 0, 0);
     std::uint64_t regular = 0;
     for (int i = 0; i < table.slices; ++i) {
@@ -246,8 +246,8 @@ TEST_CASE("images of one pixel, one row or one column have slices, too") {
   for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(1, 9), glm::ivec2(9, 1), glm::ivec2(2, 2)})
     for (const Light& light : lightsAround(1, {0, 0, 0}, 13)) {
       Frame frame = squareFrame();
-      frame.width = size.x;
-      frame.height = size.y;
+      frame.viewport.width = size.x;
+      frame.viewport.height = size.y;
       const SliceTable table = slicesOf(frame, light);
       CAPTURE(size.x, size.y);
       CHECK(table.slices >= 1);
