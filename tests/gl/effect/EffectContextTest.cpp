@@ -7,9 +7,11 @@
 #include "support/Catch.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <map>
 #include <set>
+#include <thread>
 
 using namespace tyndall;
 using tests::address;
@@ -195,6 +197,33 @@ TEST_CASE("effects in two contexts draw the same, frame by frame in turn") {
       CHECK(answer.inscatter == expected.inscatter);
       CHECK(answer.transmittance == expected.transmittance);
     }
+}
+
+TEST_CASE("effects in two threads, each with a context of its own, draw at once what one draws alone") {
+  World first(tests::testContextKind());
+  const reference::ImageAnswer expected = first.render();
+  first.context->releaseCurrent();
+  World second(tests::testContextKind());
+  second.context->releaseCurrent();
+  struct Outcome {
+    bool ok = true, same = true;
+  };
+  std::array<Outcome, 2> outcomes;
+  const auto run = [&](World& world, Outcome& outcome) { // assertions are the main thread's
+    world.context->makeCurrent();
+    for (int frame = 0; frame < 8; ++frame) {
+      outcome.ok = static_cast<bool>(world.effect->render(world.scene->frame)) && outcome.ok;
+      outcome.same = world.scene->outputs().inscatter == expected.inscatter && outcome.same;
+    }
+    world.context->releaseCurrent();
+  };
+  std::thread other([&] { run(second, outcomes[1]); });
+  run(first, outcomes[0]);
+  other.join();
+  for (const Outcome& outcome : outcomes) {
+    CHECK(outcome.ok);
+    CHECK(outcome.same);
+  }
 }
 
 TEST_CASE("OSMesa and EGL draw the same picture") {
