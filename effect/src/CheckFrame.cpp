@@ -1,30 +1,15 @@
 #include "CheckFrame.h"
 
 #include "DebugViews.h"
+#include "FieldText.h"
 #include "optics/Matrices.h"
 
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace tyndall {
 
 namespace {
-
-Status invalid(const std::string& field, const std::string& value, const std::string& rule) {
-  return {StatusCode::InvalidFrame, "Frame::" + field + (value.empty() ? "" : " is " + value) + ": " + rule};
-}
-
-std::string text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%g", value);
-  return buffer;
-}
-
-template <typename Vector>
-std::string textOf(const Vector& v) {
-  return "(" + text(v[0]) + ", " + text(v[1]) + ", " + text(v[2]) + ")";
-}
 
 template <typename Vector>
 bool isFinite(const Vector& v) {

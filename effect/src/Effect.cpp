@@ -1,4 +1,5 @@
 #include "EffectState.h"
+#include "Plausible.h"
 #include "gl/StateGuard.h"
 
 #include <algorithm>
@@ -26,7 +27,8 @@ namespace tyndall {
 // A frame is planned before anything is drawn: whatever refuses or fails does so while it is (plan/PlanFrame.cpp). The
 // rest cannot fail but by a lost context.
 Status Effect::State::render(const Frame& given) {
-  if (Status s = checkValues(given); !s) return s;
+  warnings.clear();
+  if (Status s = checkFields(given, warnings); !s) return s;
   gl::StateGuard guard(gl, stateMode);
   FrameTextures textures;
   if (Status s = checkTextures(gl, given, textures); !s) return s;
@@ -39,6 +41,14 @@ Status Effect::State::render(const Frame& given) {
   if (status) draw(planned, guard);
   keep(frame, eye, status ? &planned : nullptr);
   return status;
+}
+
+// Of the values, and of what they say of each other.
+Status Effect::State::checkFields(const Frame& frame, std::vector<std::string>& suspicions) const {
+  if (Status s = checkValues(frame); !s) return s;
+  if (Status s = checkPlausible(frame, suspicions); !s) return s;
+  if (warningsAreErrors && !suspicions.empty()) return {StatusCode::InvalidFrame, suspicions.front()};
+  return {};
 }
 
 void Effect::State::beginStatistics() {
@@ -106,7 +116,8 @@ Status Effect::State::takeMeshes(Frame& frame) {
 // ---------------------------------------------------------------------------------------------------------------------
 
 PrepareStatus Effect::State::prepare(const Frame& frame) {
-  if (Status s = checkValues(frame); !s) return {s};
+  std::vector<std::string> suspicions;
+  if (Status s = checkFields(frame, suspicions); !s) return {s};
   const gl::StateGuard guard(gl, stateMode);
   FrameTextures textures;
   if (Status s = checkTextures(gl, frame, textures); !s) return {s};

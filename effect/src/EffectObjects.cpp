@@ -78,7 +78,8 @@ Statistics Effect::statistics() {
           state.recorder.marched(),
           eye ? eye->counts.lastShare() : 1,
           state.visitsPerRay(),
-          state.tuning};
+          state.tuning,
+          state.warnings};
 }
 
 // ---------------------------------------------------------------------------------------------------------------------

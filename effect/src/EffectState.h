@@ -18,11 +18,12 @@ namespace tyndall {
 
 struct Effect::State {
   explicit State(const Config& config)
-      : stateMode(config.state), tuning(config.tuning), watch(gl), programs(gl, config.programs), framebuffers(gl),
-        targets(gl, framebuffers), recorder(gl, config.timing), paces(gl), eyes(gl, framebuffers), objectBoxes(gl),
-        blocks(gl) {}
+      : stateMode(config.state), warningsAreErrors(config.warningsAreErrors), tuning(config.tuning), watch(gl),
+        programs(gl, config.programs), framebuffers(gl), targets(gl, framebuffers), recorder(gl, config.timing),
+        paces(gl), eyes(gl, framebuffers), objectBoxes(gl), blocks(gl) {}
 
   StateMode stateMode;
+  bool warningsAreErrors;
   Tuning tuning; ///< nothing is left to choose once the objects are made
   gl::Functions gl;
   ContextWatch watch;
@@ -40,9 +41,11 @@ struct Effect::State {
   // Of the last frame, for statistics().
   std::optional<std::uint64_t> lastEye; ///< whose counts know it
   gl::Uint visits = 0;                  ///< the texture that holds DebugView::NodeVisits' mean
+  std::vector<std::string> warnings;
 
   void createObjects();
   Status check(const char* function);
+  Status checkFields(const Frame& frame, std::vector<std::string>& suspicions) const;
   Status takeMeshes(Frame& frame);
   KeptEye* eyeOf(const Frame& frame);
   void beginStatistics();
