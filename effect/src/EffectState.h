@@ -45,6 +45,7 @@ struct Effect::State {
   Status check(const char* function);
   Status takeMeshes(Frame& frame);
   KeptEye* eyeOf(const Frame& frame);
+  static Camera steadyCamera(const Frame& frame, const KeptEye* eye);
   void beginStatistics();
   Status planFrame(const Frame& frame, const FrameTextures& textures, KeptEye* eye, PlannedFrame& planned);
   void draw(const PlannedFrame& planned, gl::StateGuard& guard);
