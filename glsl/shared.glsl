@@ -29,6 +29,8 @@ UNIFORM_BLOCK(FrameBlock) {
   int constituentCount;
   int depthSampleCount;               // of a pixel
   ivec2 frameSize;                    // of the image, pixels
+  vec2 jitter;                        // by how many pixels the image has been moved: rays are those of the camera at rest
+  int framePadding0, framePadding1;
 };
 
 // A view of a light's shadow map.
@@ -97,5 +99,6 @@ UNIFORM_BLOCK(EpipolarBlock) {
   int comparesEnds, comparesRows;     // temporal reuse: what is compared with the last frame's,
   int comparesDepth, comparesSome;    // the depth itself, only some of the slices
   int shownSamples;                   // debug views of samples: 0 all, 1 at depth breaks, 2 march samples
-  int epipolarPadding0, epipolarPadding1;
+  int keepsEnds;                      // temporal reuse: ends that other jitters saw stay where they may
+  int epipolarPadding0;
 };

@@ -38,6 +38,8 @@ Status checkClipDepth(const std::string& field, ClipDepth clipDepth) {
   return invalid(field, std::to_string(static_cast<int>(clipDepth)), "must be one of the enumerators");
 }
 
+constexpr double kMostJitter = 16; // pixels, as the header says
+
 Status checkCamera(const Camera& camera) {
   if (Status s = checkMatrix("camera.viewFromWorld", camera.viewFromWorld); !s) return s;
   const Mat4& view = camera.viewFromWorld;
@@ -45,6 +47,10 @@ Status checkCamera(const Camera& camera) {
   if (std::abs(view[3]) + std::abs(view[7]) + std::abs(view[11]) > kRounding || std::abs(view[15] - 1) > kRounding)
     return invalid("camera.viewFromWorld", "not affine", "its last row must be (0, 0, 0, 1)");
   if (Status s = checkClipDepth("camera.clipDepth", camera.clipDepth); !s) return s;
+  const auto [x, y] = camera.jitter;
+  if (!(std::abs(x) <= kMostJitter && std::abs(y) <= kMostJitter))
+    return invalid("camera.jitter", "(" + text(x) + ", " + text(y) + ")",
+                   "must be finite and at most 16 pixels, either way");
   return checkMatrix("camera.clipFromView", camera.clipFromView);
 }
 

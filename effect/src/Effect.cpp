@@ -1,6 +1,7 @@
 #include "EffectState.h"
 #include "Plausible.h"
 #include "gl/StateGuard.h"
+#include "optics/Jitter.h"
 
 #include <algorithm>
 #include <utility>
@@ -36,6 +37,7 @@ Status Effect::State::render(const Frame& given) {
   if (Status s = takeMeshes(frame); !s) return s;
   beginStatistics();
   KeptEye* eye = eyeOf(frame);
+  frame.camera = steadyCamera(frame, eye);
   PlannedFrame planned;
   Status status = planFrame(frame, textures, eye, planned);
   if (status) draw(planned, guard);
@@ -79,6 +81,16 @@ void Effect::State::draw(const PlannedFrame& planned, gl::StateGuard& guard) {
   recorder.countMarched(planned.plan.marched);
   drawPlan(planned.plan, gl, {vertexArray.name(), nearestSampler.name(), planned.empty, blocks}, recorder, paces);
   visits = planned.visits;
+}
+
+// All that is planned sees the camera without its jitter, as the eye's last frame saw it if that has not moved.
+Camera Effect::State::steadyCamera(const Frame& frame, const KeptEye* eye) {
+  Camera camera = optics::steady(frame.camera, frame.viewport);
+  if (!eye || !eye->last || !optics::agree(camera, eye->last->camera)) return camera;
+  camera.clipFromView = eye->last->camera.clipFromView;
+  const bool rests = optics::slicesBeyond(camera) == 0 && optics::slicesBeyond(eye->last->camera) > 0;
+  if (rests) camera.jitter = optics::kRestingJitter;
+  return camera;
 }
 
 // What the next frame may reuse: nothing of one that failed.

@@ -48,6 +48,7 @@ struct Effect::State {
   Status checkFields(const Frame& frame, std::vector<std::string>& suspicions) const;
   Status takeMeshes(Frame& frame);
   KeptEye* eyeOf(const Frame& frame);
+  static Camera steadyCamera(const Frame& frame, const KeptEye* eye);
   void beginStatistics();
   Status planFrame(const Frame& frame, const FrameTextures& textures, KeptEye* eye, PlannedFrame& planned);
   void draw(const PlannedFrame& planned, gl::StateGuard& guard);

@@ -5,7 +5,10 @@ struct Ray {
   vec3 direction; // unit
 };
 
-// The ray through a window position (pixels, as gl_FragCoord.xy).
+// Window positions are in pixels, as gl_FragCoord.xy would be without the jitter; where it has moved a pixel from:
+vec2 unjittered(vec2 pixel) { return pixel - jitter; }
+
+// The ray through a window position.
 Ray cameraRay(vec2 windowPosition) {
   vec2 p = windowPosition - 0.5 * vec2(frameSize);
   vec3 far = farPoint[0].xyz + p.x * farPoint[1].xyz + p.y * farPoint[2].xyz;

@@ -3,9 +3,9 @@
 uniform sampler2D sceneDepth;
 uniform sampler2DMS sceneDepthSamples;
 
-// Where the camera ray through a window position ends for one of the pixel's samples.
-float sampleEndAt(vec2 windowPosition, int index) {
-  ivec2 pixel = ivec2(windowPosition);
+// Where the pixel's camera ray ends for one of its samples.
+float sampleEndAt(int index) {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
   float depth = isMultisampled != 0 ? texelFetch(sceneDepthSamples, pixel, index).r : texelFetch(sceneDepth, pixel, 0).r;
-  return max(rayEnd(windowPosition, depth), 0.0);
+  return max(rayEnd(unjittered(gl_FragCoord.xy), depth), 0.0);
 }

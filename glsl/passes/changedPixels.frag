@@ -10,19 +10,20 @@
 layout(location = 0) out vec4 outInscatter;
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy), slices = neighbourSlices(sliceCoordinate(gl_FragCoord.xy));
+  vec2 position = unjittered(gl_FragCoord.xy);
+  ivec2 pixel = ivec2(gl_FragCoord.xy), slices = neighbourSlices(sliceCoordinate(position));
   bool compared = false, changed = false;
   float alone = kNoEnd;
   for (int i = 0; i < 2; ++i) {
     int slice = i == 0 ? slices.x : slices.y;
     if (!isCompared(slice)) continue;
-    vec2 change = changeOf(slice, gl_FragCoord.xy, gl_FragCoord.xy);
+    vec2 change = changeOf(slice, position, position);
     compared = true;
     changed = changed || change.x > 0.0;
     alone = min(alone, change.y);
   }
   if (!changed && compared && comparesDepth != 0) changed = hasDepthChanged(pixel);
-  if (!changed && alone < kNoEnd) changed = min(rayEnd(gl_FragCoord.xy, depthAt(pixel)), visibleEnd) > alone;
+  if (!changed && alone < kNoEnd) changed = min(rayEnd(position, depthAt(pixel)), visibleEnd) > alone;
   if (!changed) discard;
   outInscatter = vec4(0.0);
 }

@@ -33,7 +33,7 @@ int wrapped(int slice) { return slicesClosed != 0 ? (slice + sliceCount) % slice
 float farthestEnd(ivec2 first, ivec2 last) {
   float end = 0.0;
   for (int y = first.y; y <= last.y; ++y)
-    for (int x = first.x; x <= last.x; ++x) end = max(end, min(rayEnd(vec2(x, y) + 0.5, depthAt(ivec2(x, y))), visibleEnd));
+    for (int x = first.x; x <= last.x; ++x) end = max(end, min(rayEnd(unjittered(vec2(x, y) + 0.5), depthAt(ivec2(x, y))), visibleEnd));
   return end;
 }
 
@@ -41,7 +41,7 @@ void main() {
   int across = (frameSize.x + kTile - 1) / kTile, tile = int(gl_FragCoord.x) + 256 * int(gl_FragCoord.y);
   ivec2 first = kTile * ivec2(tile % across, tile / across), last = min(first + kTile, frameSize) - 1;
   if (first.y >= frameSize.y) discard;
-  vec2 low = vec2(first) + 0.5, high = vec2(last) + 0.5;
+  vec2 low = unjittered(vec2(first) + 0.5), high = unjittered(vec2(last) + 0.5);
   ivec2 slices = slicesOf(low, high);
   bool changed = false, compared = false;
   float alone = kNoEnd;

@@ -48,7 +48,7 @@ vec3 colourOf(int slice, int index) {
 void main() {
   int id = gl_VertexID / 3, corner = gl_VertexID % 3, slice = id / samplesPerSlice, index = id % samplesPerSlice;
   colour = colourOf(slice, index);
-  vec2 centre = floor(samplePosition(sliceEnds(slice), sliceSamples(slice), float(index))) + 0.5;
+  vec2 centre = floor(samplePosition(sliceEnds(slice), sliceSamples(slice), float(index)) + jitter) + 0.5;
   vec2 p = centre + vec2(corner == 0 ? -0.4 : corner == 1 ? 0.4 : 0.0, corner == 2 ? 0.4 : -0.4);
   gl_Position = colour == vec3(0.0) ? vec4(2.0, 2.0, 0.0, 1.0) : vec4(2.0 * p / vec2(frameSize) - 1.0, 0.0, 1.0);
 }

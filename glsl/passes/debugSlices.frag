@@ -1,15 +1,17 @@
 // Debug view of slices: each pixel's nearest slice, a hue for sixteen of them, every second one darker; the epipole white.
 // Writes debugView: image size, RGBA32F.
 #include "shared.glsl"
+#include "lib/camera.glsl"
 #include "lib/slices.glsl"
 
 layout(location = 0) out vec4 outColour;
 
 void main() {
-  int slice = neighbourSlices(sliceCoordinate(gl_FragCoord.xy) + 0.5).x;
+  vec2 p = unjittered(gl_FragCoord.xy);
+  int slice = neighbourSlices(sliceCoordinate(p) + 0.5).x;
   float hue = fract(float(slice >> 4) * 0.618034); // the golden ratio: neighbours differ
   vec3 colour = clamp(abs(fract(hue + vec3(0.0, 2.0, 1.0) / 3.0) * 6.0 - 3.0) - 1.0, 0.0, 1.0);
   colour = (0.2 + 0.8 * colour) * ((slice & 1) == 0 ? 1.0 : 0.6);
-  if (distance(gl_FragCoord.xy * epipole.z, epipole.xy) < 2.0 * abs(epipole.z)) colour = vec3(1.0);
+  if (distance(p * epipole.z, epipole.xy) < 2.0 * abs(epipole.z)) colour = vec3(1.0);
   outColour = vec4(colour, 1.0);
 }

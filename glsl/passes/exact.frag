@@ -19,7 +19,7 @@ void addOwned(Airlight light, ViewSegment segment, int slice, inout Light sum) {
 vec2 nextEnd(float from) {
   vec2 next = vec2(3e38, 0.0);
   for (int k = 0; k < depthSampleCount; ++k) {
-    float end = min(sampleEndAt(gl_FragCoord.xy, k), visibleEnd);
+    float end = min(sampleEndAt(k), visibleEnd);
     if (end > from) next = vec2(min(next.x, end), next.y + 1.0);
   }
   return next;
@@ -27,7 +27,7 @@ vec2 nextEnd(float from) {
 
 vec3 meanTransmittance() {
   vec3 sum = vec3(0.0);
-  for (int k = 0; k < depthSampleCount; ++k) sum += transmittanceTo(sampleEndAt(gl_FragCoord.xy, k)) / float(depthSampleCount);
+  for (int k = 0; k < depthSampleCount; ++k) sum += transmittanceTo(sampleEndAt(k)) / float(depthSampleCount);
   return sum;
 }
 
@@ -39,7 +39,7 @@ void main() {
   for (int k = 0; k < depthSampleCount; ++k) {
     vec2 next = nextEnd(from);
     if (next.y == 0.0) break;
-    sum += shadowedLight(gl_FragCoord.xy, from, next.x, ivec2(0, MAX_SHADOW_VIEWS), true, 0) * (next.y / float(depthSampleCount));
+    sum += shadowedLight(unjittered(gl_FragCoord.xy), from, next.x, ivec2(0, MAX_SHADOW_VIEWS), true, 0) * (next.y / float(depthSampleCount));
     from = next.x;
   }
   outInscatter = vec4(min(lightColour * vec3(sum), vec3(lightCeiling)), 0.0);

@@ -15,9 +15,10 @@
 #include "lib/outputs.glsl"
 
 void main() {
-  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy))), 0.0);
-  int slice = neighbourSlices(sliceCoordinate(gl_FragCoord.xy)).x;
-  vec3 light = vec3(rowShadowedLight(gl_FragCoord.xy, 0.0, end, slice));
+  vec2 position = unjittered(gl_FragCoord.xy);
+  float end = max(rayEnd(position, depthAt(ivec2(gl_FragCoord.xy))), 0.0);
+  int slice = neighbourSlices(sliceCoordinate(position)).x;
+  vec3 light = vec3(rowShadowedLight(position, 0.0, end, slice));
   outInscatter = vec4(min(lightColour * light, vec3(lightCeiling)), 0.0);
   outTransmittance = vec4(transmittanceTo(end), 1.0);
 }

@@ -40,8 +40,9 @@ Target sampleTarget() {
 }
 
 Target pixelTarget() {
-  float end = rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy)));
-  return Target(gl_FragCoord.xy, neighbourSlices(sliceCoordinate(gl_FragCoord.xy) + 0.5).x, end, true);
+  vec2 position = unjittered(gl_FragCoord.xy);
+  float end = rayEnd(position, depthAt(ivec2(gl_FragCoord.xy)));
+  return Target(position, neighbourSlices(sliceCoordinate(position) + 0.5).x, end, true);
 }
 
 // What depends on the ray's direction alone: the sine by which a sample's light is stored, or the phase function of a pixel's.

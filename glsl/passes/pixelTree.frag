@@ -20,12 +20,13 @@
 #include "lib/outputs.glsl"
 
 void main() {
-  float end = max(rayEnd(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy))), 0.0);
-  int slice = neighbourSlices(sliceCoordinate(gl_FragCoord.xy) + 0.5).x;
+  vec2 position = unjittered(gl_FragCoord.xy);
+  float end = max(rayEnd(position, depthAt(ivec2(gl_FragCoord.xy))), 0.0);
+  int slice = neighbourSlices(sliceCoordinate(position) + 0.5).x;
 #ifdef LOW_RANK
-  startLowRank(cameraRay(gl_FragCoord.xy), slice);
+  startLowRank(cameraRay(position), slice);
 #endif
-  vec3 light = vec3(rowShadowedLight(gl_FragCoord.xy, 0.0, end, slice));
+  vec3 light = vec3(rowShadowedLight(position, 0.0, end, slice));
 #ifdef COUNT_VISITS
   outInscatter = vec4(visits);
 #else

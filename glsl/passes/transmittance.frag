@@ -14,7 +14,7 @@ layout(location = 1) out vec4 outTransmittance;
 void main() {
   vec3 transmittance = vec3(0.0);
   for (int k = 0; k < depthSampleCount; ++k)
-    transmittance += exp(-extinction * sampleEndAt(gl_FragCoord.xy, k)) / float(depthSampleCount);
+    transmittance += exp(-extinction * sampleEndAt(k)) / float(depthSampleCount);
   outInscatter = vec4(0.0);
   outTransmittance = vec4(transmittance, 1.0);
 }

@@ -57,17 +57,18 @@ void addSlice(int slice, float sliceWeight, vec2 p, float end, inout Sums sums) 
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  float end = max(rayEnd(gl_FragCoord.xy, depthAt(pixel)), 0.0);
-  float place = sliceCoordinate(gl_FragCoord.xy), f = fract(place);
+  vec2 position = unjittered(gl_FragCoord.xy);
+  float end = max(rayEnd(position, depthAt(pixel)), 0.0);
+  float place = sliceCoordinate(position), f = fract(place);
   ivec2 slices = neighbourSlices(place);
-  Ray ray = cameraRay(gl_FragCoord.xy);
+  Ray ray = cameraRay(position);
   float coordinate = endCoordinate(ray, min(end, visibleEnd));
 #if SPREAD
   spreadUnit = radianceUnit(ray) / max(texelFetch(meanLight, ivec2(0), 0).r, 1e-37);
 #endif
   Sums sums = Sums(vec4(0.0), vec4(0.0), 0.0, 0.0);
-  addSlice(slices.x, 1.0 - f, gl_FragCoord.xy, coordinate, sums);
-  addSlice(slices.y, f, gl_FragCoord.xy, coordinate, sums);
+  addSlice(slices.x, 1.0 - f, position, coordinate, sums);
+  addSlice(slices.y, f, position, coordinate, sums);
   // Where the samples' ends lead to the pixel's, one surface runs through all of them: to leave out those that
   // differ more, towards a horizon, say, would only pull to one side.
   float apart = abs(sums.plain.a - coordinate * sums.plainWeight), allowed = 0.125 * endThreshold * sums.plainWeight;
@@ -75,7 +76,7 @@ void main() {
   vec4 sum = mix(sums.agreeing, vec4(sums.plain.rgb, sums.plainWeight), oneSurface);
   // Next to a lamp inscatter and its shadows change from pixel to pixel; at it every direction has a limit of its own.
   const float kNear = LIGHT_KIND == 0 ? EPIPOLE_GAP : LAMP_PIXELS;
-  vec2 fromEpipole = gl_FragCoord.xy * epipole.z - epipole.xy;
+  vec2 fromEpipole = position * epipole.z - epipole.xy;
   float near = (epipole.z > 0.0 ? kNear : EPIPOLE_GAP) * epipole.z;
   if (dot(fromEpipole, fromEpipole) < near * near) discard;
   if (!(sum.w >= leastWeight && sum.w > 0.0)) discard;

@@ -158,6 +158,7 @@ blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
   block.depthSampleCount = sizes.depthSamples;
   block.isMultisampled = frame.depth.multisampled ? 1 : 0;
   block.frameSize = {frame.viewport.width, frame.viewport.height};
+  block.jitter = {frame.camera.jitter[0], frame.camera.jitter[1]};
   return block;
 }
 

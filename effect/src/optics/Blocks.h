@@ -18,6 +18,7 @@ struct FrameSizes {
 /// The point that shader positions are relative to: the eye, or the clip volume's centre if orthographic.
 glm::dvec3 cameraOrigin(const Camera& camera);
 
+/// The frame's camera is without its jitter (optics/Jitter.h), here and elsewhere in optics.
 blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes);
 
 /// shadowWidth, shadowHeight, curvesSize: texels, 0 without a shadow map or curves.

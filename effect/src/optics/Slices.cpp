@@ -1,6 +1,7 @@
 #include "optics/Slices.h"
 
 #include "optics/Blocks.h"
+#include "optics/Jitter.h"
 #include "optics/Matrices.h"
 
 #include <algorithm>
@@ -18,11 +19,13 @@ using glm::dvec3;
 using glm::dvec4;
 
 // The border of the image through its outermost pixel centres, as an arc from the low corner: bottom, right, top, left.
-// Around a single row or column it is not without width: lines leave one through its ends, too.
+// Around a single row or column it is not without width: lines leave one through its ends, too. Or `beyond` pixels
+// farther out.
 struct Border {
   static constexpr double kThin = 1e-3; // pixels; a slice still runs through the pixels' centres
   dvec2 low, high;
-  explicit Border(const dvec2& image) : low(glm::min(dvec2(0.5), 0.5 * image - 0.5 * kThin)), high(image - low) {}
+  Border(const dvec2& image, double beyond)
+      : low(glm::min(dvec2(0.5), 0.5 * image - 0.5 * kThin) - beyond), high(image - low) {}
   dvec2 size() const { return high - low; }
   double perimeter() const { return 2 * (size().x + size().y); }
   double length(int side) const { return side % 2 == 0 ? size().x : size().y; }
@@ -195,7 +198,7 @@ void setStored(blocks::EpipolarBlock& block, const Frame& frame, const Light& li
 
 SliceTable makeSlices(const Frame& frame, const Light& light, int shadowWidth, int shadowHeight) {
   const int slices = frame.settings.slices, samples = frame.settings.samples;
-  const Border border(dvec2(frame.viewport.width, frame.viewport.height));
+  const Border border(dvec2(frame.viewport.width, frame.viewport.height), slicesBeyond(frame.camera));
   const dvec3 epipole = epipoleOf(frame, light);
   const std::array<bool, 4> exits = exitSides(epipole, border);
   // The exit sides are neighbours; the first is one whose predecessor is none.

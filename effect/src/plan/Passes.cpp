@@ -134,6 +134,7 @@ std::vector<PassRow> makeRows() {
           .sameForAllLights(),
       Row(Pass::SampleEnds, "sample ends", "passes/sampleEnds.frag", S::Slices)
           .reads({R::SceneDepth, R::SliceTable})
+          .readsIfThere({R::LastSampleEnds})
           .writes({R::SampleEnds}),
       Row(Pass::RowDepths, "rows", "passes/rowDepths.frag", S::StripsOfRows)
           .reads({R::SliceTable, R::ShadowMap, R::GlassColour, R::GlassDepth})

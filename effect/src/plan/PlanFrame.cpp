@@ -3,6 +3,7 @@
 #include "DebugViews.h"
 #include "SampleBudget.h"
 #include "optics/Blocks.h"
+#include "optics/Jitter.h"
 #include "optics/LightVolume.h"
 #include "passes/Epipolar.h"
 
@@ -27,7 +28,8 @@ std::string reasonToSkip(const Frame& frame, const Light& light, bool wantsInsca
   if (light.colour == Rgb{0, 0, 0}) return "the light is black";
   if (optics::scatteringOf(frame.medium) == glm::dvec3(0)) return "the medium does not scatter";
   if (!wantsInscatter) return "only the transmittance is wanted";
-  if (!anyCamera && optics::isOutOfView(light, frame.camera)) return "the light's volume is outside the view";
+  if (!anyCamera && optics::isOutOfView(light, optics::jittered(frame.camera, frame.viewport)))
+    return "the light's volume is outside the view";
   return {};
 }
 

@@ -23,6 +23,7 @@ struct KeptSlices {
   blocks::EpipolarBlock block{};
   int viewsPerDraw = 1;
   int endsSide = 0, rowsSide = 0;
+  bool mixedEnds = false; ///< of several frames' jitters
 };
 
 struct KeptLight {
@@ -37,6 +38,7 @@ struct KeptPicture {
   DepthContent depth;
   std::uint64_t frame = 0; ///< Reuse::frame
   bool hasDepth = false;   ///< LastDepth is its depth
+  Camera camera;           ///< without its jitter, which it names
 };
 
 /// What a frame leaves for the next one.

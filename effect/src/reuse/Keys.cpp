@@ -64,7 +64,8 @@ bool same(const LightKey& a, const LightKey& b) {
 }
 
 bool sameFrame(const FrameKey& a, const FrameKey& b) {
-  return same(a.block, b.block) && fieldsOf(a.settings) == fieldsOf(b.settings) && a.drawn == b.drawn;
+  return same(a.block, b.block) && fieldsOf(a.settings) == fieldsOf(b.settings) && a.drawn == b.drawn &&
+         a.slicesBeyond == b.slicesBeyond;
 }
 
 } // namespace tyndall

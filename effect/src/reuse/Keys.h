@@ -37,14 +37,16 @@ struct LightKey {
 };
 
 struct FrameKey {
-  blocks::FrameBlock block{};
+  blocks::FrameBlock block{}; ///< but for the jitter
+  glm::vec2 jitter{0};
+  double slicesBeyond = 0; ///< pixels beyond the image
   Settings settings;
   std::vector<std::size_t> drawn; ///< indices of the lights
   std::vector<LightKey> lights;   ///< of those
 };
 
 bool same(const LightKey& a, const LightKey& b);
-/// But for the lights' own.
+/// But for the lights' own, and for the jitter.
 bool sameFrame(const FrameKey& a, const FrameKey& b);
 
 } // namespace tyndall

@@ -1,3 +1,4 @@
+#include "optics/Jitter.h"
 #include "passes/Unwarp.h"
 #include "plan/PlanFrame.h"
 #include "reuse/Redrawing.h"
@@ -58,7 +59,13 @@ Destination FramePlanner::keptDestination() const {
 }
 
 FrameKey FramePlanner::keyOf(const std::vector<DrawnLight>& drawn) const {
-  FrameKey key{out_.plan.block<blocks::FrameBlock>(passes_.frameBlock), frame_.settings, {}, {}};
+  FrameKey key{out_.plan.block<blocks::FrameBlock>(passes_.frameBlock),
+               {},
+               optics::slicesBeyond(frame_.camera),
+               frame_.settings,
+               {},
+               {}};
+  std::swap(key.jitter, key.block.jitter);
   for (const DrawnLight& light : drawn) {
     key.drawn.push_back(light.index);
     key.lights.push_back({light.block, light.settings, in_.textures.shadows[light.index], light.variant,
@@ -74,7 +81,8 @@ void FramePlanner::planReused(const std::vector<DrawnLight>& drawn, RedrawPlan r
   Destination& to = passes_.destination;
   to.inscatter = passes_.textureOf(Resource::Inscatter);
   to.transmittance = passes_.textureOf(Resource::Transmittance);
-  KeptNext next{{redraw.key, depthOf(frame_), frame_.reuse.frame, eye.last && eye.last->hasDepth}, {}, {}};
+  KeptNext next{
+      {redraw.key, depthOf(frame_), frame_.reuse.frame, eye.last && eye.last->hasDepth, frame_.camera}, {}, {}};
   Redraw picture = redraw.picture;
   Mask mask;
   if (picture == Redraw::Nothing) {

@@ -24,6 +24,7 @@ LightRedraw planLight(const KeptEye& eye, const FrameKey& key, std::size_t i, co
     light.comparesRows = hasMap && light.comparesEnds;
   }
   if (!sameFrame || !last || !same(light.key, last->key)) return light;
+  light.mixesEnds = last->mixedEnds || eye.last->key.jitter != key.jitter;
   const bool changes = light.comparesEnds || light.comparesRows || frame.reuse.refreshFrames > 0;
   light.redraw = changes ? Redraw::Part : Redraw::Nothing;
   return light;
@@ -43,6 +44,7 @@ RedrawPlan planRedraw(const KeptEye& eye, FrameKey key, const Frame& frame) {
   const bool sameDepth = detects ? eye.last && isStated(depthOf(frame), eye.last->depth) : frame.objects.empty();
   bool all = !eye.last || !sameFrame(key, eye.last->key) || (!detects && !eye.isFollowedBy(frame));
   all = all || (!sameDepth && (!inParts || !eye.last->hasDepth));
+  const bool moved = !all && key.jitter != eye.last->key.jitter; // every pixel, but no slice
   bool part = !sameDepth;
   for (std::size_t i = 0; i < key.drawn.size(); ++i) {
     plan.lights.push_back(planLight(eye, key, i, frame, !all));
@@ -51,7 +53,7 @@ RedrawPlan planRedraw(const KeptEye& eye, FrameKey key, const Frame& frame) {
     all = all || redraw == Redraw::All || (redraw == Redraw::Part && !inParts);
   }
   plan.mayReuse = eye.last.has_value();
-  plan.picture = all ? Redraw::All : part ? Redraw::Part : Redraw::Nothing;
+  plan.picture = all || moved ? Redraw::All : part ? Redraw::Part : Redraw::Nothing;
   plan.key = std::move(key);
   return plan;
 }

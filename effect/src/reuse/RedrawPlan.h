@@ -13,6 +13,7 @@ struct LightRedraw {
   MapContent maps;
   Redraw redraw = Redraw::All;
   bool comparesEnds = false, comparesRows = false;
+  bool mixesEnds = false; ///< those of other jitters stay where they may
 };
 
 struct RedrawPlan {

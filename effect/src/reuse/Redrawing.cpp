@@ -92,6 +92,7 @@ void planChanged(LightPlanner& light, const KeptSlices& last, const LightRedraw&
   refresh(light, frame.eye.frames);
   light.block.comparesEnds = redraw.comparesEnds ? 1 : 0;
   light.block.comparesRows = redraw.comparesRows ? 1 : 0;
+  light.block.keepsEnds = redraw.mixesEnds ? 1 : 0;
   light.selectDraw(0);
   if (objects) findMoved(light, last.key.block);
   if (redraw.comparesEnds) {
@@ -147,8 +148,9 @@ void planSlices(LightPlanner& light, LightRedraw& redraw, Redrawing& frame) {
 }
 
 KeptSlices keptOf(const LightPlanner& light, const LightRedraw& redraw) {
-  return {redraw.key,  redraw.maps,        light.board,    light.extent,
-          light.block, light.viewsPerDraw, light.endsSide, light.rowsSide};
+  return {redraw.key,     redraw.maps,    light.board,
+          light.extent,   light.block,    light.viewsPerDraw,
+          light.endsSide, light.rowsSide, redraw.redraw != Redraw::All && redraw.mixesEnds};
 }
 
 void planMask(LightPlanner& light, bool comparesDepth, bool begins) {

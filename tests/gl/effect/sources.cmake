@@ -33,6 +33,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/MemoryTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/NonFiniteTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EngineErrorTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/JitterTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/KeptProgramsTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/PendingErrorTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/QueryTest.cpp
