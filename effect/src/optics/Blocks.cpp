@@ -1,5 +1,6 @@
 #include "optics/Blocks.h"
 
+#include "optics/EngineDepth.h"
 #include "optics/Matrices.h"
 
 #include <algorithm>
@@ -156,8 +157,8 @@ blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
   block.outputMax = sizes.outputMax;
   block.constituentCount = static_cast<int>(shares.size());
   block.depthSampleCount = sizes.depthSamples;
-  block.isMultisampled = frame.depth.multisampled ? 1 : 0;
   block.frameSize = {frame.viewport.width, frame.viewport.height};
+  setEngineDepth(block, frame, sizes.depthRounding);
   return block;
 }
 
