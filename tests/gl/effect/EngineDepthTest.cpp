@@ -26,9 +26,9 @@ tests::SceneRig litRig() {
 }
 
 // Pictures of all techniques, as the numbers in both outputs.
-std::vector<std::vector<float>> pictures(tests::SceneRig& rig) {
+std::vector<std::vector<float>> pictures(tests::SceneRig& rig, const std::vector<Technique>& techniques = kTechniques) {
   std::vector<std::vector<float>> all;
-  for (const Technique technique : kTechniques) {
+  for (const Technique technique : techniques) {
     rig.frame.settings.technique = technique;
     const Status status = tests::testEffect().render(rig.frame);
     INFO(status.message);
@@ -213,10 +213,21 @@ double worst(const std::vector<std::vector<float>>& a, const std::vector<std::ve
   return most;
 }
 
-// The picture with encoded depth is that with window depth of the distances that it stands for.
+// A wall without two equal slopes, about which rounding alone would decide; a grey medium, whose light epipolar
+// textures hold in 32 bits.
+tests::SceneRig bentRig() {
+  tests::SceneRig rig = litRig();
+  rig.frame.medium.constituents = {{{0.1F, 0.1F, 0.1F}, Phase::HenyeyGreenstein, 0.3F}};
+  for (std::size_t i = 0; i < rig.distances.size(); ++i)
+    rig.distances[i] += 0.31 * std::sin(1.3 * static_cast<double>(i % kWidth) + 0.77 * static_cast<double>(i / kWidth));
+  return rig;
+}
+
+// The picture with encoded depth is that with window depth of the distances that it stands for. Coarse formats have
+// equal slopes in any case: for them exact's.
 void checkEncoding(const tests::DepthConvention& convention, const Encoding& encoding, GLenum format, double sky) {
   CAPTURE(static_cast<int>(encoding.encoding), encoding.scale.unit, encoding.scale.offset, format, sky);
-  tests::SceneRig rig = litRig();
+  tests::SceneRig rig = bentRig();
   rig.setConvention(convention);
   const host::GlTexture texture = encode(rig, encoding, format, sky);
   rig.setConvention(convention);
@@ -225,8 +236,9 @@ void checkEncoding(const tests::DepthConvention& convention, const Encoding& enc
   rig.frame.depth.encoding = encoding.encoding;
   rig.frame.depth.scale = encoding.scale;
   const std::vector<std::vector<float>> found = pictures(rig);
-  CHECK(worst({found[0], found[1]}, {expected[0], expected[1]}) <= 2e-5); // exact
-  CHECK(worst(found, expected) <= 1e-4);
+  CHECK(worst({found[0], found[1]}, {expected[0], expected[1]}) <= 1e-5); // exact
+  const bool isCoarse = format == GL_R16F || format == GL_DEPTH_COMPONENT16;
+  if (!isCoarse) CHECK(worst(found, expected) <= 2e-5);
 }
 
 tests::DepthConvention infinite() {
@@ -276,18 +288,19 @@ TEST_CASE("an orthographic camera's distances are from its near plane") {
   convention.far = 30;
   for (const ClipDepth clipDepth : {ClipDepth::NegativeOneToOne, ClipDepth::ZeroToOne}) {
     convention.clipDepth = clipDepth;
-    checkEncoding(convention, {DepthEncoding::Axial, {1, convention.near}}, GL_R32F, 1000);
-    tests::SceneRig rig = litRig();
+    tests::SceneRig rig = bentRig();
     rig.setConvention(convention);
     const std::vector<std::vector<float>> expected = pictures(rig);
-    std::vector<float> values;
-    for (const double d : rig.distances)
-      values.push_back(static_cast<float>((d - convention.near) / (convention.far - convention.near)));
-    const host::GlTexture texture = depthTexture(GL_R32F, kWidth, kHeight, values);
-    rig.frame.depth = {texture.name()};
-    rig.frame.depth.encoding = DepthEncoding::Axial;
-    rig.frame.depth.scale.unit = convention.far - convention.near;
-    CHECK(worst(pictures(rig), expected) <= 1e-4);
+    for (const DepthScale& scale : {DepthScale{convention.far - convention.near}, DepthScale{1, -convention.near}}) {
+      std::vector<float> values; // from 0 at the near plane to 1; view distance, which begins elsewhere
+      for (const double d : rig.distances)
+        values.push_back(static_cast<float>((d - convention.near - scale.offset) / scale.unit));
+      const host::GlTexture texture = depthTexture(GL_R32F, kWidth, kHeight, values);
+      rig.frame.depth = {texture.name()};
+      rig.frame.depth.encoding = DepthEncoding::Axial;
+      rig.frame.depth.scale = scale;
+      CHECK(worst(pictures(rig), expected) <= 2e-5);
+    }
   }
 }
 
@@ -296,16 +309,20 @@ TEST_CASE("logarithmic depth spans ten million times the near distance") {
   tests::DepthConvention convention = infinite();
   convention.near = 1e-2;
   const Encoding logarithmic{DepthEncoding::Logarithmic, {1, 0, 1, 1e5}};
+  // Terms of low rank, and slopes beside the sky, depend on the far plane.
+  const std::vector<Technique> techniques = {Technique::Exact, Technique::Tree};
   for (const double scale : {0.01, 1.0, 100.0, 5000.0})
     for (const GLenum format : {GL_R32F, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT24}) {
       CAPTURE(scale, format);
-      tests::SceneRig rig = litRig();
+      tests::SceneRig rig = bentRig();
       for (double& distance : rig.distances)
         distance *= scale;
+      for (float& s : rig.frame.medium.constituents[0].scattering)
+        s = static_cast<float>(s / scale);
       rig.setConvention(convention);
       const host::GlTexture texture = encode(rig, logarithmic, format, 1);
       rig.setConvention(convention);
-      const std::vector<std::vector<float>> expected = pictures(rig);
+      const std::vector<std::vector<float>> expected = pictures(rig, techniques);
       convention.infinite = convention.reversed =
           false; // the camera's own far plane, which float's depth could not bear
       convention.far = 1e5;
@@ -315,7 +332,7 @@ TEST_CASE("logarithmic depth spans ten million times the near distance") {
       rig.frame.depth = {texture.name()};
       rig.frame.depth.encoding = logarithmic.encoding;
       rig.frame.depth.scale = logarithmic.scale;
-      CHECK(worst(pictures(rig), expected) <= 1e-4);
+      CHECK(worst(pictures(rig, techniques), expected) <= 2e-5);
     }
 }
 
@@ -332,9 +349,9 @@ TEST_CASE("a pixel whose encoded depth is NaN, or at the eye, gets no light") {
       rig.frame.settings.technique = technique;
       const reference::ImageAnswer answer = rig.render();
       for (const double v : answer.inscatter.rgb)
-        CHECK(v == 0);
+        CHECK(std::abs(v) <= 1e-20);
       for (const double v : answer.transmittance.rgb)
-        CHECK(v == 1);
+        CHECK(std::abs(v - 1) <= 1e-6);
     }
   }
 }
