@@ -39,6 +39,7 @@ struct MapView {
   float nearDepth, farDepth;          // of the near and the far plane
   float depthSign;                    // of stored depth
   int isOpen;                         // 1 if open beyond the far plane
+  ivec2 origin, size;                 // texels of its layer that show it
   int layer;                          // of an array
   int viewPadding0, viewPadding1, viewPadding2;
 };
@@ -54,7 +55,7 @@ UNIFORM_BLOCK(LightBlock) {
   float outerSineSquared, innerSineSquared;
   float falloffScale;                 // 1 / (innerCosine - outerCosine), or 0 for a hard edge
   float falloffPanel;                 // panels (in x of airlight.glsl) up to which two nodes resolve the falloff
-  ivec2 shadowMapSize;                // texels
+  int lightPadding0, lightPadding1;
   vec4 boundary;                      // the light's path in the medium at x is max(0, dot(xyz, x) + w); all 0 if none
   int viewCount;                      // shadow views
   int curvesSize, curvesPacked;       // curves: texels per side of their map, 1 if packed,

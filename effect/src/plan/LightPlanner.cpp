@@ -22,15 +22,18 @@ LightPlanner::LightPlanner(const PassPlanner& planner, const Frame& lit, const D
   board[Resource::GlassColour] = light.glass.colour;
   board[Resource::GlassDepth] = light.glass.depth;
   board[Resource::Curves] = light.curves.texture;
-  mapSize_ = {map.width, map.height};
+  layerSize_ = {map.width, map.height};
   if (variant.shadowViews > 0) shadowViews_ = static_cast<int>(light.shadow.views.size());
+  for (int i = 0; i < shadowViews_; ++i)
+    mapSize_ = {std::max(mapSize_.width, drawn.block.shadowViews[i].size.x),
+                std::max(mapSize_.height, drawn.block.shadowViews[i].size.y)};
   paths.views = shadowViews_;
   paths.map = mapSize_;
 }
 
 void LightPlanner::makeSlices(const Limits& limits) {
   const Settings& settings = frame.settings;
-  geometry = optics::makeSlices(frame, light, mapSize_.width, mapSize_.height);
+  geometry = optics::makeSlices(frame, light, layerSize_.width, layerSize_.height);
   regularSamples = geometry.regularSamples;
   block = geometry.block;
   block.breakThreshold = settings.breakThreshold;

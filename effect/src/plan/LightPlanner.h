@@ -65,7 +65,8 @@ private:
   int chooseViewsPerDraw(const Limits& limits) const;
 
   int shadowViews_ = 0;
-  Size mapSize_; // of the shadow map
+  Size layerSize_; // of the shadow map
+  Size mapSize_;   // of the largest view
 };
 
 } // namespace tyndall
