@@ -63,6 +63,20 @@ UNIFORM_BLOCK(LightBlock) {
   MapView shadowViews[MAX_SHADOW_VIEWS];
 };
 
+// A light's shadow view whose maps are copied (passes/mapCopy.frag). Places are x, y of its clip space.
+UNIFORM_BLOCK(CopyBlock) {
+  vec4 copiedRay[3];                  // the ray at (x, y): [0] + x [1] + y [2], z along the view's axis, where it is 1
+  vec4 copiedDepth;                   // window depth at d along the axis: x + dot(yz, place) + w / d, if orthographic + w d
+  float copiedUnit, copiedOffset;     // of stored depth: d = offset + unit * depth
+  float copiedFar;                    // d of the far plane,
+  float copiedRounding;               // from which stored depth may be so far off
+  ivec2 copiedOrigin, copiedSize;     // texels of its layer that show the view
+  int copiedLayer;                    // of an array, or face of a cube map's
+  int copiedEncoding;                 // 0 window depth, 1 d along the axis, 2 d along the ray
+  int copiedIsOrthographic;
+  float copiedFarDepth;               // window depth of the far plane
+};
+
 // Epipolar sampling (Yusov 2013). Window positions are in pixels as gl_FragCoord.xy; the border is the rectangle through
 // the outermost pixel centres, around a single row or column of pixels a little wide.
 UNIFORM_BLOCK(EpipolarBlock) {

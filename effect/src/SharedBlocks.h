@@ -19,6 +19,7 @@ using glm::vec4;
 static_assert(sizeof(FrameBlock) == 16 * (3 + 1 + 1 + 1 + 2 * MAX_CONSTITUENTS + 2));
 static_assert(sizeof(MapView) == 16 * 9);
 static_assert(sizeof(LightBlock) == 16 * 7 + sizeof(MapView) * MAX_SHADOW_VIEWS);
+static_assert(sizeof(CopyBlock) == 16 * (3 + 1 + 3));
 static_assert(sizeof(EpipolarBlock) == 16 * 12);
 constexpr bool beginsRow(std::size_t offset) { return offset % 16 == 0; }
 constexpr bool isAligned(std::size_t offset) { return offset % 8 == 0; } // a pair
@@ -28,6 +29,7 @@ static_assert(beginsRow(offsetof(MapView, margin)) && beginsRow(offsetof(MapView
 static_assert(beginsRow(offsetof(LightBlock, lightDirection)) && beginsRow(offsetof(LightBlock, lightPosition)));
 static_assert(beginsRow(offsetof(MapView, origin)) && beginsRow(offsetof(LightBlock, boundary)));
 static_assert(beginsRow(offsetof(LightBlock, shadowViews)) && beginsRow(offsetof(EpipolarBlock, border)));
-static_assert(beginsRow(offsetof(EpipolarBlock, storedScale)));
+static_assert(beginsRow(offsetof(EpipolarBlock, storedScale)) && beginsRow(offsetof(CopyBlock, copiedDepth)));
+static_assert(beginsRow(offsetof(CopyBlock, copiedOrigin)));
 
 } // namespace tyndall::blocks

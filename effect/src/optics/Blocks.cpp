@@ -256,11 +256,7 @@ blocks::LightBlock lightBlock(const Frame& frame, const Light& light, int shadow
   for (int i = 0; i < count; ++i) {
     const ShadowView& view = light.shadow.views[static_cast<std::size_t>(i)];
     const glm::dmat4 depthClipFromWorld = depthFromClip(light.shadow.clipDepth) * toGlm(view.clipFromWorld);
-    const glm::dmat4 worldFromClip = glm::inverse(depthClipFromWorld);
-    const glm::dvec4 centre = worldFromClip * glm::dvec4(0, 0, 0.5, 1);
-    const glm::dvec3 travel =
-        light.kind == LightKind::Directional ? direction : glm::dvec3(centre) / centre.w - toGlm(light.position);
-    const bool reversed = isReversed(depthClipFromWorld, travel);
+    const bool reversed = isReversedView(light, i);
     // Clip x, y to texels and depth to a value that grows away from the light: 0..1, or -1..0 if reversed.
     glm::dmat4 texelFromClip(1);
     const Rectangle texels = texelsOf(view, shadowWidth, shadowHeight);
@@ -270,8 +266,8 @@ blocks::LightBlock lightBlock(const Frame& frame, const Light& light, int shadow
     const glm::dmat4 texelFromCamera = texelFromClip * glm::translate(depthClipFromWorld, origin);
     blocks::MapView& map = block.shadowViews[i];
     map.texelFromCamera = glm::mat4(texelFromCamera);
-    map.margin = marginOf(texelFromCamera, glm::dvec2(texels.width, texels.height), light, toGlm(light.position) - origin,
-                          extentOf(frame.camera));
+    map.margin = marginOf(texelFromCamera, glm::dvec2(texels.width, texels.height), light,
+                          toGlm(light.position) - origin, extentOf(frame.camera));
     const bool open = light.kind != LightKind::Directional || i == count - 1;
     map.nearDepth = reversed ? -1 : 0;
     map.farDepth = reversed ? 0 : 1;
