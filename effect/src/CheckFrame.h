@@ -21,7 +21,7 @@ struct FrameTextures {
     bool floatTint = false; ///< the glass map's tint has more than 8 bits
     /// How maps are copied that passes do not read as they are (plan/MapCopies.h), a view each; then the size is the
     /// copies'.
-    std::vector<blocks::CopyBlock> copies;
+    std::vector<blocks::CopyBlock> copies = {};
     int copySource = 0; ///< SOURCE of glsl/passes/mapCopy.frag
   };
   int depthSamples = 1;

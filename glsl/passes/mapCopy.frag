@@ -8,20 +8,24 @@
 #include "shared.glsl"
 
 #if SOURCE == 0
-#define MAP sampler2D
+uniform sampler2D shadowMap;
+uniform sampler2D glassColour;
+uniform sampler2D glassDepth;
 #elif SOURCE == 1
-#define MAP sampler2DArray
+uniform sampler2DArray shadowMap;
+uniform sampler2DArray glassColour;
+uniform sampler2DArray glassDepth;
 #elif SOURCE == 2
-#define MAP samplerCube
+uniform samplerCube shadowMap;
+uniform samplerCube glassColour;
+uniform samplerCube glassDepth;
 #else
-#define MAP samplerCubeArray
+uniform samplerCubeArray shadowMap;
+uniform samplerCubeArray glassColour;
+uniform samplerCubeArray glassDepth;
 #endif
-
-uniform MAP shadowMap;
 layout(location = 0) out vec4 outDepth;
 #if GLASS
-uniform MAP glassColour;
-uniform MAP glassDepth;
 layout(location = 1) out vec4 outTint;
 layout(location = 2) out vec4 outPane;
 #endif
