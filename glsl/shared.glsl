@@ -46,6 +46,7 @@ struct MapView {
   float nearDepth, farDepth;          // of the near and the far plane
   float depthSign;                    // of stored depth
   int isOpen;                         // 1 if open beyond the far plane
+  ivec2 origin, size;                 // texels of its layer that show it
   int layer;                          // of an array
   int viewPadding0, viewPadding1, viewPadding2;
 };
@@ -61,12 +62,26 @@ UNIFORM_BLOCK(LightBlock) {
   float outerSineSquared, innerSineSquared;
   float falloffScale;                 // 1 / (innerCosine - outerCosine), or 0 for a hard edge
   float falloffPanel;                 // panels (in x of airlight.glsl) up to which two nodes resolve the falloff
-  ivec2 shadowMapSize;                // texels
+  int lightPadding0, lightPadding1;
   vec4 boundary;                      // the light's path in the medium at x is max(0, dot(xyz, x) + w); all 0 if none
   int viewCount;                      // shadow views
   int curvesSize, curvesPacked;       // curves: texels per side of their map, 1 if packed,
   int texelsPerCurve;                 // texels that hold one
   MapView shadowViews[MAX_SHADOW_VIEWS];
+};
+
+// A light's shadow view whose maps are copied (passes/mapCopy.frag). Places are x, y of its clip space.
+UNIFORM_BLOCK(CopyBlock) {
+  vec4 copiedRay[3];                  // the ray at (x, y): [0] + x [1] + y [2], z along the view's axis, where it is 1
+  vec4 copiedDepth;                   // window depth at d along the axis: x + dot(yz, place) + w / d, if orthographic + w d
+  float copiedUnit, copiedOffset;     // of stored depth: d = offset + unit * depth
+  float copiedFar;                    // d of the far plane,
+  float copiedRounding;               // from which stored depth may be so far off
+  ivec2 copiedOrigin, copiedSize;     // texels of its layer that show the view
+  int copiedLayer;                    // of an array, or face of a cube map's
+  int copiedEncoding;                 // 0 window depth, 1 d along the axis, 2 d along the ray
+  int copiedIsOrthographic;
+  float copiedFarDepth;               // window depth of the far plane
 };
 
 // Epipolar sampling (Yusov 2013). Window positions are in pixels as gl_FragCoord.xy; the border is the rectangle through

@@ -2,9 +2,12 @@
 
 #include "DebugViews.h"
 #include "FieldText.h"
+#include "optics/Blocks.h"
 #include "optics/Matrices.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace tyndall {
@@ -88,10 +91,7 @@ Status checkSceneDepth(const Frame& frame) {
   const Rectangle& r = depth.rectangle;
   const bool isGiven = r.x != 0 || r.y != 0 || r.width != 0 || r.height != 0;
   if (isGiven && (r.x < 0 || r.y < 0 || r.width < 1 || r.height < 1))
-    return invalid("depth.rectangle",
-                   std::to_string(r.width) + " x " + std::to_string(r.height) + " at (" + std::to_string(r.x) + ", " +
-                       std::to_string(r.y) + ")",
-                   "must be at least 1 x 1 at (0, 0) or beyond, or all 0");
+    return invalid("depth.rectangle", textOf(r), "must be at least 1 x 1 at (0, 0) or beyond, or all 0");
   if (encoding < DepthEncoding::Window || encoding > DepthEncoding::Logarithmic)
     return invalid("depth.encoding", std::to_string(static_cast<int>(encoding)), "must be one of the enumerators");
   if ((encoding == DepthEncoding::Radial || encoding == DepthEncoding::Logarithmic) &&
@@ -133,6 +133,78 @@ Status checkMedium(const Medium& medium) {
   return {};
 }
 
+bool overlap(const Rectangle& a, const Rectangle& b) {
+  const auto meet = [](std::int64_t p, std::int64_t pSize, std::int64_t q, std::int64_t qSize) {
+    return p < q + qSize && q < p + pSize;
+  };
+  const bool whole = optics::isWholeLayer(a) || optics::isWholeLayer(b);
+  return whole || (meet(a.x, a.width, b.x, b.width) && meet(a.y, a.height, b.y, b.height));
+}
+
+// Views without rectangles may show one layer.
+Status checkRectangles(const std::string& light, const ShadowMap& shadow) {
+  for (std::size_t i = 0; i < shadow.views.size(); ++i) {
+    const Rectangle& r = shadow.views[i].rectangle;
+    const std::string field = light + "shadow.views[" + std::to_string(i) + "].rectangle";
+    const bool whole = optics::isWholeLayer(r);
+    if (!whole && (r.x < 0 || r.y < 0 || r.width < 1 || r.height < 1))
+      return invalid(field, textOf(r), "must begin at 0 or later and hold a texel; all 0 for the whole layer");
+    for (std::size_t k = 0; k < i; ++k) {
+      const ShadowView& other = shadow.views[k];
+      if (other.layer == shadow.views[i].layer && !(whole && optics::isWholeLayer(other.rectangle)) &&
+          overlap(r, other.rectangle))
+        return invalid(field, textOf(r), "overlaps that of views[" + std::to_string(k) + "]");
+    }
+  }
+  return {};
+}
+
+Status checkCube(const std::string& light, LightKind kind, const ShadowMap& shadow) {
+  const CubeMap& cube = shadow.cube;
+  const std::string field = light + "shadow.cube.";
+  if (kind != LightKind::Point) return invalid(field + "enabled", "true", "only a point light has a cube map");
+  if (!shadow.views.empty())
+    return invalid(light + "shadow.views", std::to_string(shadow.views.size()) + " long",
+                   "must be empty: a cube map's views are its faces");
+  if (cube.index < 0 || (!shadow.array && cube.index != 0))
+    return invalid(field + "index", std::to_string(cube.index),
+                   shadow.array ? "must be >= 0" : "must be 0 for a GL_TEXTURE_CUBE_MAP");
+  if (!(cube.nearDistance > 0 && std::isfinite(cube.nearDistance)))
+    return invalid(field + "nearDistance", text(cube.nearDistance), "must be finite and > 0");
+  if (!(cube.farDistance > cube.nearDistance))
+    return invalid(field + "farDistance", text(cube.farDistance), "must be > nearDistance");
+  return {};
+}
+
+Status checkScale(const std::string& field, const ShadowMap& shadow) {
+  const DepthScale& scale = shadow.scale;
+  if (shadow.encoding == DepthEncoding::Window && (scale.unit != 1 || scale.offset != 0))
+    return scale.unit != 1 ? invalid(field + "unit", text(scale.unit), "must be 1 where the encoding is Window")
+                           : invalid(field + "offset", text(scale.offset), "must be 0 where the encoding is Window");
+  if (!std::isfinite(scale.unit) || scale.unit == 0)
+    return invalid(field + "unit", text(scale.unit), "must be finite and not 0");
+  if (!std::isfinite(scale.offset)) return invalid(field + "offset", text(scale.offset), "must be finite");
+  if (scale.constant != 1)
+    return invalid(field + "constant", text(scale.constant), "must be 1 where the encoding is not Logarithmic");
+  if (scale.far != 0) return invalid(field + "far", text(scale.far), "must be 0 where the encoding is not Logarithmic");
+  return {};
+}
+
+Status checkEncoding(const std::string& light, LightKind kind, const ShadowMap& shadow) {
+  const std::string field = light + "shadow.encoding";
+  if (shadow.encoding < DepthEncoding::Window || shadow.encoding > DepthEncoding::Logarithmic)
+    return invalid(field, std::to_string(static_cast<int>(shadow.encoding)), "must be one of the enumerators");
+  if (shadow.encoding == DepthEncoding::Logarithmic)
+    return invalid(field, "Logarithmic", "a shadow map's must be Window, Axial or Radial");
+  if (shadow.encoding == DepthEncoding::Radial && kind == LightKind::Directional)
+    return invalid(field, "Radial", "a directional light has no place to be distant from");
+  for (std::size_t i = 0; i < shadow.views.size(); ++i)
+    if (shadow.encoding == DepthEncoding::Radial &&
+        optics::isOrthographic(optics::toGlm(shadow.views[i].clipFromWorld)))
+      return invalid(field, "Radial", "views[" + std::to_string(i) + "] is orthographic");
+  return checkScale(light + "shadow.scale.", shadow);
+}
+
 Status checkViews(const std::string& light, LightKind kind, const ShadowMap& shadow) {
   const std::size_t count = shadow.views.size();
   const char* rule = kind == LightKind::Directional ? "a directional light has 1 to 4 (cascades)"
@@ -140,9 +212,10 @@ Status checkViews(const std::string& light, LightKind kind, const ShadowMap& sha
                                                     : "a point light has 1 to 6 (cube faces)";
   const std::size_t most = kind == LightKind::Directional ? 4 : kind == LightKind::Spot ? 1 : 6;
   if (count < 1 || count > most) return invalid(light + "shadow.views", std::to_string(count) + " long", rule);
-  if (count > 1 && !shadow.array)
-    return invalid(light + "shadow.array", "false", "several views need a GL_TEXTURE_2D_ARRAY");
-  if (Status s = checkClipDepth(light + "shadow.clipDepth", shadow.clipDepth); !s) return s;
+  const bool anyWhole = std::any_of(shadow.views.begin(), shadow.views.end(),
+                                    [](const ShadowView& view) { return optics::isWholeLayer(view.rectangle); });
+  if (count > 1 && !shadow.array && anyWhole)
+    return invalid(light + "shadow.array", "false", "several views need a GL_TEXTURE_2D_ARRAY, or a rectangle each");
   for (std::size_t i = 0; i < count; ++i) {
     const std::string field = light + "shadow.views[" + std::to_string(i) + "].";
     if (Status s = checkMatrix(field + "clipFromWorld", shadow.views[i].clipFromWorld); !s) return s;
@@ -150,7 +223,13 @@ Status checkViews(const std::string& light, LightKind kind, const ShadowMap& sha
       return invalid(field + "layer", std::to_string(shadow.views[i].layer),
                      shadow.array ? "must be >= 0" : "must be 0 for a GL_TEXTURE_2D");
   }
-  return {};
+  return checkRectangles(light, shadow);
+}
+
+Status checkShadow(const std::string& light, LightKind kind, const ShadowMap& shadow) {
+  if (Status s = shadow.cube.enabled ? checkCube(light, kind, shadow) : checkViews(light, kind, shadow); !s) return s;
+  if (Status s = checkClipDepth(light + "shadow.clipDepth", shadow.clipDepth); !s) return s;
+  return checkEncoding(light, kind, shadow);
 }
 
 Status checkBoundary(const std::string& field, const Light& light) {
@@ -192,6 +271,9 @@ Status checkCurves(const std::string& field, const Light& light) {
     return invalid(field + "shadow.texture", "0", "curves need a shadow map, whose views they share");
   if (curves.nodes < 4 || curves.nodes > 16 || curves.nodes % 4 != 0)
     return invalid(field + "curves.nodes", std::to_string(curves.nodes), "must be 4, 8, 12 or 16");
+  if (light.shadow.cube.enabled && !std::isfinite(light.shadow.cube.farDistance))
+    return invalid(field + "shadow.cube.farDistance", text(light.shadow.cube.farDistance),
+                   "curves need one that is not at infinity");
   for (std::size_t i = 0; i < light.shadow.views.size(); ++i)
     if (!optics::linearDepth(light, static_cast<int>(i)).exists)
       return invalid(field + "shadow.views[" + std::to_string(i) + "].clipFromWorld", "without a far plane",
@@ -214,7 +296,7 @@ Status checkLight(const std::string& field, const Light& light) {
   if (Status s = checkBoundary(field, light); !s) return s;
   if (Status s = checkFade(field, light); !s) return s;
   if (light.shadow.texture != 0)
-    if (Status s = checkViews(field, light.kind, light.shadow); !s) return s;
+    if (Status s = checkShadow(field, light.kind, light.shadow); !s) return s;
   if ((light.glass.colour != 0) != (light.glass.depth != 0))
     return invalid(field + (light.glass.colour ? "glass.depth" : "glass.colour"), "0",
                    "a glass map needs both its colour and its depth");

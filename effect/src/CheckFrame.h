@@ -1,9 +1,11 @@
 // Every precondition of Config and Frame, with its message. A message is one line: the field, its value and the rule.
 #pragma once
 
+#include "SharedBlocks.h"
 #include "gl/Functions.h"
 
 #include <tyndall/tyndall.h>
+#include <vector>
 
 namespace tyndall {
 
@@ -18,9 +20,15 @@ struct TargetTexture {
 /// What the checks learn about a frame's textures.
 struct FrameTextures {
   struct Shadow {
-    int width = 0;
+    int width = 0; ///< of a layer, or of a face
     int height = 0;
-    int curvesSize = 0; ///< texels per side of Light::curves, 0 without
+    int curvesSize = 0;     ///< texels per side of Light::curves, 0 without
+    double rounding = 1e-6; ///< of stored depths, as a part of them
+    bool floatTint = false; ///< the glass map's tint has more than 8 bits
+    /// How maps are copied that passes do not read as they are (plan/MapCopies.h), a view each; then the size is the
+    /// copies'.
+    std::vector<blocks::CopyBlock> copies = {};
+    int copySource = 0; ///< SOURCE of glsl/passes/mapCopy.frag
   };
   int depthSamples = 1;
   float depthRounding = 0; ///< share of a distance by which the scene depth's format rounds it

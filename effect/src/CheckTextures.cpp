@@ -1,5 +1,7 @@
 #include "CheckFrame.h"
 #include "gl/OwnErrors.h"
+#include "optics/Blocks.h"
+#include "optics/MapCopy.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +15,7 @@ namespace {
 
 using namespace gl; // GL's enumerants
 
-enum class Use { Colour, Output, Depth, EncodedDepth, Tint, Curves };
+enum class Use { Colour, Output, Depth, Map, Tint, Curves };
 
 struct Info {
   Int width = 0;
@@ -31,6 +33,8 @@ const char* targetName(Enum target) {
   return target == TEXTURE_2D               ? "GL_TEXTURE_2D"
          : target == TEXTURE_2D_ARRAY       ? "GL_TEXTURE_2D_ARRAY"
          : target == TEXTURE_2D_MULTISAMPLE ? "GL_TEXTURE_2D_MULTISAMPLE"
+         : target == TEXTURE_CUBE_MAP       ? "GL_TEXTURE_CUBE_MAP"
+         : target == TEXTURE_CUBE_MAP_ARRAY ? "GL_TEXTURE_CUBE_MAP_ARRAY"
                                             : "GL_TEXTURE_2D_MULTISAMPLE_ARRAY";
 }
 
@@ -106,16 +110,39 @@ bool bindIfOf(const Functions& gl, Uint name, Enum target) {
   return errors.take() == NO_ERROR;
 }
 
+// Of the bound texture; of a cube map's, of one face.
+Info levelOf(const Functions& gl, Enum target) {
+  Info info;
+  gl.GetTexLevelParameteriv(target, 0, TEXTURE_WIDTH, &info.width);
+  gl.GetTexLevelParameteriv(target, 0, TEXTURE_HEIGHT, &info.height);
+  gl.GetTexLevelParameteriv(target, 0, TEXTURE_INTERNAL_FORMAT, &info.format);
+  return info;
+}
+
+// GL samples none of a cube map whose faces differ.
+Status checkFaces(const Functions& gl, const std::string& field, Uint name, const Info& first) {
+  constexpr std::array<const char*, 6> kFaces = {"POSITIVE_X", "NEGATIVE_X", "POSITIVE_Y",
+                                                 "NEGATIVE_Y", "POSITIVE_Z", "NEGATIVE_Z"};
+  for (Uint i = 0; i < kFaces.size(); ++i) {
+    const Info face = levelOf(gl, TEXTURE_CUBE_MAP_POSITIVE_X + i);
+    const std::string its = std::string("its face GL_TEXTURE_CUBE_MAP_") + kFaces[i];
+    if (face.width < 1) return invalid(field, name, its + " has no level 0");
+    if (face.width != first.width || face.height != first.height || face.format != first.format)
+      return invalid(field, name, its + " must have the size and format of the others");
+  }
+  return {};
+}
+
 // Leaves the texture bound.
 Status inspect(const Functions& gl, const std::string& field, Uint name, Enum target, Info& info) {
   if (!gl.IsTexture(name))
     return invalid(field, name, "not the name of a texture in this context (deleted, or never bound?)");
   if (!bindIfOf(gl, name, target)) return invalid(field, name, std::string("must be a ") + targetName(target));
-  gl.GetTexLevelParameteriv(target, 0, TEXTURE_WIDTH, &info.width);
-  gl.GetTexLevelParameteriv(target, 0, TEXTURE_HEIGHT, &info.height);
-  gl.GetTexLevelParameteriv(target, 0, TEXTURE_INTERNAL_FORMAT, &info.format);
+  info = levelOf(gl, target == TEXTURE_CUBE_MAP ? TEXTURE_CUBE_MAP_POSITIVE_X : target);
   if (isArray(target)) gl.GetTexLevelParameteriv(target, 0, TEXTURE_DEPTH, &info.layers);
   if (isMultisample(target)) gl.GetTexLevelParameteriv(target, 0, TEXTURE_SAMPLES, &info.samples);
+  if (target == TEXTURE_CUBE_MAP)
+    if (Status s = checkFaces(gl, field, name, info); !s) return s;
   if (info.width < 1) return invalid(field, name, "has no level 0");
   if (!isMultisample(target)) {
     Int base = 0;
@@ -126,10 +153,10 @@ Status inspect(const Functions& gl, const std::string& field, Uint name, Enum ta
 }
 
 Status checkFormat(const std::string& field, Uint name, Use use, Int format) {
-  const bool encodes = format == static_cast<Int>(R16F) || format == static_cast<Int>(RG32F);
+  if (use == Use::Map && !isDepthFormat(format) && static_cast<Enum>(format) != R16F &&
+      static_cast<Enum>(format) != RG32F)
+    return invalid(field, name, "must have a depth format, R16F, R32F or RG32F");
   if (use == Use::Depth && !isDepthFormat(format)) return invalid(field, name, "must have a depth format or R32F");
-  if (use == Use::EncodedDepth && !isDepthFormat(format) && !encodes)
-    return invalid(field, name, "must have a depth format, R32F, R16F or RG32F");
   if ((use == Use::Colour || use == Use::Output) && !isFloatColour(format))
     return invalid(field, name, "must have a float colour format (RGBA16F, RGBA32F, R11F_G11F_B10F, RGB16F, RGB32F)");
   if (use == Use::Tint && !isTint(format))
@@ -142,7 +169,7 @@ Status checkFormat(const std::string& field, Uint name, Use use, Int format) {
 // How many channels of a texture are read as they are stored. No sampler can undo what the texture's own parameters do
 // to them; a tint may come in any order.
 std::size_t channelsRead(Use use) {
-  return use == Use::Depth || use == Use::EncodedDepth ? 1 : use == Use::Output ? 3 : use == Use::Curves ? 4 : 0;
+  return use == Use::Depth || use == Use::Map ? 1 : use == Use::Output ? 3 : use == Use::Curves ? 4 : 0;
 }
 
 // The texture is bound.
@@ -157,7 +184,7 @@ Status checkChannels(const Functions& gl, const std::string& field, Uint name, E
     if (static_cast<Enum>(sources[i]) != kOwn[i].first)
       return invalid(field, name, std::string("GL_TEXTURE_SWIZZLE_") + kOwn[i].second);
   }
-  if (use != Use::Depth && use != Use::EncodedDepth) return {};
+  if (use != Use::Depth && use != Use::Map) return {};
   Int mode = DEPTH_COMPONENT;
   if (gl.stencilTexturing) gl.GetTexParameteriv(target, DEPTH_STENCIL_TEXTURE_MODE, &mode);
   if (static_cast<Enum>(mode) != DEPTH_COMPONENT)
@@ -264,7 +291,7 @@ Status checkDepth(const Functions& gl, const Frame& frame, const Info& targets, 
   const SceneDepth& depth = frame.depth;
   const Enum one = depth.multisampled ? TEXTURE_2D_MULTISAMPLE : TEXTURE_2D;
   const Enum array = depth.multisampled ? TEXTURE_2D_MULTISAMPLE_ARRAY : TEXTURE_2D_ARRAY;
-  const Use use = depth.encoding == DepthEncoding::Window ? Use::Depth : Use::EncodedDepth;
+  const Use use = depth.encoding == DepthEncoding::Window ? Use::Depth : Use::Map;
   Info info;
   if (Status s = checkLayered(gl, {"depth.texture", depth.texture, "depth.layer", depth.layer}, one, array, use, info);
       !s)
@@ -306,25 +333,80 @@ Status checkCurves(const Functions& gl, const std::string& field, const Light& l
   return {};
 }
 
+Enum targetOf(const ShadowMap& map) {
+  return map.cube.enabled ? (map.array ? TEXTURE_CUBE_MAP_ARRAY : TEXTURE_CUBE_MAP)
+                          : (map.array ? TEXTURE_2D_ARRAY : TEXTURE_2D);
+}
+
+// Where views lie in the map.
+Status checkPlaces(const std::string& field, const ShadowMap& shadow, const Info& map) {
+  const auto outside = [&](const std::string& what, const std::string& value, const std::string& has) {
+    return Status{StatusCode::InvalidFrame,
+                  "Frame::" + field + "shadow." + what + " is " + value + ": the shadow map has " + has};
+  };
+  if (shadow.cube.enabled)
+    return !shadow.array || shadow.cube.index < map.layers / 6
+               ? Status{}
+               : outside("cube.index", std::to_string(shadow.cube.index), std::to_string(map.layers / 6) + " cubes");
+  for (std::size_t i = 0; i < shadow.views.size(); ++i) {
+    const ShadowView& view = shadow.views[i];
+    const Rectangle& r = view.rectangle;
+    const std::string its = "views[" + std::to_string(i) + "].";
+    if (shadow.array && view.layer >= map.layers)
+      return outside(its + "layer", std::to_string(view.layer), std::to_string(map.layers) + " layers");
+    if (r.width > map.width - r.x || r.height > map.height - r.y)
+      return outside(its + "rectangle",
+                     "(" + std::to_string(r.x) + ", " + std::to_string(r.y) + ", " + std::to_string(r.width) + " x " +
+                         std::to_string(r.height) + ")",
+                     std::to_string(map.width) + " x " + std::to_string(map.height) + " texels");
+  }
+  return {};
+}
+
+bool isFixedPoint(Int format) {
+  const auto f = static_cast<Enum>(format);
+  return f == DEPTH_COMPONENT || f == DEPTH_COMPONENT16 || f == DEPTH_COMPONENT24 || f == DEPTH_COMPONENT32 ||
+         f == DEPTH24_STENCIL8;
+}
+
+// What is farther than the greatest distance that a format holds could not be told from a caster there.
+Status checkReach(const std::string& field, const Light& light, Int format) {
+  const DepthScale& scale = light.shadow.scale;
+  if (light.shadow.encoding == DepthEncoding::Window || !isFixedPoint(format)) return {};
+  for (std::size_t i = 0; i < light.shadow.views.size(); ++i) {
+    const double far = static_cast<double>(optics::copyBlock(light, static_cast<int>(i), {}, 0).copiedFar);
+    if (far < kLargestFloat && std::max(scale.offset, scale.offset + scale.unit) < 0.9999 * far)
+      return {StatusCode::InvalidFrame,
+              "Frame::" + field + "shadow.scale.unit is " + std::to_string(scale.unit) +
+                  ": a fixed-point format holds 0 to 1, which does not reach the far plane, " + std::to_string(far) +
+                  " away"};
+  }
+  return {};
+}
+
 Status checkShadow(const Functions& gl, const std::string& field, const Light& light, FrameTextures::Shadow& shadow) {
   if (light.shadow.texture == 0) return {};
-  const Enum target = light.shadow.array ? TEXTURE_2D_ARRAY : TEXTURE_2D;
+  const Enum target = targetOf(light.shadow);
+  if (target == TEXTURE_CUBE_MAP_ARRAY && !gl.cubeArrays)
+    return invalid(field + "shadow.texture", light.shadow.texture,
+                   "a GL_TEXTURE_CUBE_MAP_ARRAY needs OpenGL 4.0 or GL_ARB_texture_cube_map_array");
   Info map;
-  if (Status s = check(gl, field + "shadow.texture", light.shadow.texture, target, Use::Depth, map); !s) return s;
-  for (std::size_t i = 0; i < light.shadow.views.size(); ++i)
-    if (light.shadow.array && light.shadow.views[i].layer >= map.layers)
-      return {StatusCode::InvalidFrame, "Frame::" + field + "shadow.views[" + std::to_string(i) + "].layer is " +
-                                            std::to_string(light.shadow.views[i].layer) + ": the shadow map has " +
-                                            std::to_string(map.layers) + " layers"};
-  shadow = {map.width, map.height};
+  if (Status s = check(gl, field + "shadow.texture", light.shadow.texture, target, Use::Map, map); !s) return s;
+  if (Status s = checkPlaces(field, light.shadow, map); !s) return s;
+  if (Status s = checkReach(field, light, map.format); !s) return s;
+  shadow.width = map.width;
+  shadow.height = map.height;
+  if (static_cast<Enum>(map.format) == R16F) shadow.rounding = 1.0 / 2048;
   if (light.curves.texture != 0)
     if (Status s = checkCurves(gl, field + "curves.texture", light, shadow.curvesSize); !s) return s;
   if (light.glass.colour == 0) return {};
   Info colour, depth;
   if (Status s = check(gl, field + "glass.colour", light.glass.colour, target, Use::Tint, colour); !s) return s;
   if (Status s = sized(field + "glass.colour", light.glass.colour, colour, map.width, map.height); !s) return s;
-  if (Status s = check(gl, field + "glass.depth", light.glass.depth, target, Use::Depth, depth); !s) return s;
+  if (Status s = check(gl, field + "glass.depth", light.glass.depth, target, Use::Map, depth); !s) return s;
   if (Status s = sized(field + "glass.depth", light.glass.depth, depth, map.width, map.height); !s) return s;
+  shadow.floatTint = isFloatColour(colour.format) || static_cast<Enum>(colour.format) == SRGB8 ||
+                     static_cast<Enum>(colour.format) == SRGB8_ALPHA8; // which is linear as it is read
   if (colour.layers < map.layers)
     return invalid(field + "glass.colour", light.glass.colour, "has fewer layers than the shadow map");
   if (depth.layers < map.layers)

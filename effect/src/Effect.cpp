@@ -2,6 +2,7 @@
 #include "Plausible.h"
 #include "gl/StateGuard.h"
 #include "optics/Jitter.h"
+#include "plan/MapCopies.h"
 
 #include <algorithm>
 #include <utility>
@@ -32,8 +33,9 @@ Status Effect::State::render(const Frame& given) {
   if (Status s = checkFields(given, warnings); !s) return s;
   gl::StateGuard guard(gl, stateMode);
   FrameTextures textures;
-  if (Status s = checkTextures(gl, given, textures); !s) return s;
-  Frame frame = given;
+  Frame frame = withCubeViews(given);
+  if (Status s = checkTextures(gl, frame, textures); !s) return s;
+  chooseCopies(frame, textures);
   if (Status s = takeMeshes(frame); !s) return s;
   beginStatistics();
   KeptEye* eye = eyeOf(frame);
@@ -75,7 +77,7 @@ Status Effect::State::planFrame(const Frame& frame, const FrameTextures& texture
 
 void Effect::State::draw(const PlannedFrame& planned, gl::StateGuard& guard) {
   const UnitsUsed units = unitsOf(planned.plan);
-  guard.saveUnits(units.count, units.arrays, units.multisampled);
+  guard.saveUnits(units.count, units.kinds);
   if (units.stencil) guard.saveStencil();
   if (units.scissor) guard.saveScissorBox();
   recorder.countMarched(planned.plan.marched);
@@ -127,12 +129,14 @@ Status Effect::State::takeMeshes(Frame& frame) {
 
 // ---------------------------------------------------------------------------------------------------------------------
 
-PrepareStatus Effect::State::prepare(const Frame& frame) {
+PrepareStatus Effect::State::prepare(const Frame& given) {
   std::vector<std::string> suspicions;
-  if (Status s = checkFields(frame, suspicions); !s) return {s};
+  if (Status s = checkFields(given, suspicions); !s) return {s};
   const gl::StateGuard guard(gl, stateMode);
   FrameTextures textures;
+  Frame frame = withCubeViews(given);
   if (Status s = checkTextures(gl, frame, textures); !s) return {s};
+  chooseCopies(frame, textures);
   Frame boxed = frame;
   LastShapes none;
   if (frame.reuse.changes != Changes::Unknown)

@@ -30,6 +30,7 @@ void settleExtensions(gl::Functions& gl) {
   if (!has(43, "GL_KHR_debug")) gl.ObjectLabel = nullptr;
   gl.parallelCompile = extensions.count("GL_KHR_parallel_shader_compile") != 0 ||
                        extensions.count("GL_ARB_parallel_shader_compile") != 0;
+  gl.cubeArrays = has(40, "GL_ARB_texture_cube_map_array");
   gl.stencilTexturing = has(43, "GL_ARB_stencil_texturing");
   if (!has(45, "GL_KHR_robustness"))
     gl.GetGraphicsResetStatus = has(45, "GL_ARB_robustness") ? gl.GetGraphicsResetStatusARB : nullptr;

@@ -18,8 +18,9 @@ using glm::vec4;
 
 // std140 adds no padding of its own: sizes are those of the rows, and what must begin a row does.
 static_assert(sizeof(FrameBlock) == 16 * (3 + 1 + 1 + 1 + 2 * MAX_CONSTITUENTS + 6));
-static_assert(sizeof(MapView) == 16 * 8);
+static_assert(sizeof(MapView) == 16 * 9);
 static_assert(sizeof(LightBlock) == 16 * 7 + sizeof(MapView) * MAX_SHADOW_VIEWS);
+static_assert(sizeof(CopyBlock) == 16 * (3 + 1 + 3));
 static_assert(sizeof(EpipolarBlock) == 16 * 12);
 constexpr bool beginsRow(std::size_t offset) { return offset % 16 == 0; }
 constexpr bool isAligned(std::size_t offset) { return offset % 8 == 0; } // a pair
@@ -29,8 +30,9 @@ static_assert(beginsRow(offsetof(FrameBlock, jitter)));
 static_assert(beginsRow(offsetof(FrameBlock, depthFirst)) && beginsRow(offsetof(FrameBlock, depthAxis)));
 static_assert(beginsRow(offsetof(MapView, margin)) && beginsRow(offsetof(MapView, curveDepth)));
 static_assert(beginsRow(offsetof(LightBlock, lightDirection)) && beginsRow(offsetof(LightBlock, lightPosition)));
-static_assert(isAligned(offsetof(LightBlock, shadowMapSize)) && beginsRow(offsetof(LightBlock, boundary)));
+static_assert(beginsRow(offsetof(MapView, origin)) && beginsRow(offsetof(LightBlock, boundary)));
 static_assert(beginsRow(offsetof(LightBlock, shadowViews)) && beginsRow(offsetof(EpipolarBlock, border)));
-static_assert(beginsRow(offsetof(EpipolarBlock, storedScale)));
+static_assert(beginsRow(offsetof(EpipolarBlock, storedScale)) && beginsRow(offsetof(CopyBlock, copiedDepth)));
+static_assert(beginsRow(offsetof(CopyBlock, copiedOrigin)));
 
 } // namespace tyndall::blocks

@@ -73,7 +73,7 @@ struct CurveLine {
 } curveLine;
 
 void startCurves(ViewSegment segment, bool alongX, bool mirrored, int row) {
-  vec2 scale = float(curvesSize) / vec2(shadowMapSize), p = segment.p0.xy * scale, d = segment.p1.xy * scale - p;
+  vec2 scale = float(curvesSize) / vec2(shadowViews[segment.view].size), p = segment.p0.xy * scale, d = segment.p1.xy * scale - p;
   if (!alongX) {
     p = p.yx;
     d = d.yx;

@@ -15,8 +15,7 @@ Visibility texelVisibility(RowLine line, RowWalk walk, ViewSegment segment, inou
   Line still;
   still.origin = vec3(p, (line.depth - rowCodeOffset) / rowCodeScale);
   still.slope = vec3(0.0, 0.0, line.slope / rowCodeScale);
-  ivec2 cell = clamp(ivec2(floor(p)), ivec2(FILTER_BILINEAR == 1 ? -1 : 0), shadowMapSize - 1);
-  return pieceVisibility(still, cell, segment.view, walk.u, u);
+  return pieceVisibility(still, cellAt(p, segment.view), segment.view, walk.u, u);
 }
 
 // Takes the walk's group of four if `current` holds all through it; else true if its mean stands for it.

@@ -39,7 +39,7 @@ void clipInterval(float c, float d, inout float s0, inout float s1) {
 // light and the near plane, else the part from the near plane on. Empty if y <= x.
 vec2 viewInterval(int view, Ray ray, float s0, float s1, bool beforeNear) {
   vec4 a = shadowViews[view].texelFromCamera * vec4(ray.origin, 1.0), b = shadowViews[view].texelFromCamera * vec4(ray.direction, 0.0);
-  vec2 size = vec2(shadowMapSize);
+  vec2 size = vec2(shadowViews[view].size);
   vec4 margin = shadowViews[view].margin;
   clipInterval(a.x + margin.x, b.x + margin.z, s0, s1);
   clipInterval(a.y + margin.y, b.y + margin.w, s0, s1);
@@ -80,7 +80,8 @@ float distanceAt(ViewSegment segment, float u) {
 #include "lib/spans.glsl"
 
 // A line through the cells of a view's map, from u = 0 to 1. A cell is a texel (nearest) or the square between four texel
-// centres (bilinear, coordinates shifted by half a texel so that both kinds have integer corners).
+// centres (bilinear, coordinates shifted by half a texel so that both kinds have integer corners). Coordinates begin at the view's
+// rectangle, cells count from the layer's first.
 struct Line {
   vec3 origin, slope; // cell coordinates and depth at u are origin + u slope
   vec2 inverse;       // u per cell; its sign is that of the steps along x and y
@@ -98,13 +99,16 @@ struct Walk {
 #endif
 };
 
+// The cell at a place of a view, from the one before the first centre on if they are between centres.
+ivec2 cellAt(vec2 place, int view) {
+  return clamp(ivec2(floor(place)), ivec2(FILTER_BILINEAR == 1 ? -1 : 0), shadowViews[view].size - 1) + shadowViews[view].origin;
+}
+
 void startWalk(ViewSegment segment, out Line line, out Walk walk) {
 #if FILTER_BILINEAR
   const float kShift = 0.5;
-  const int kLowest = -1; // the cell before the first centre
 #else
   const float kShift = 0.0;
-  const int kLowest = 0;
 #endif
 #ifdef SKIPS_NODES
   walk.stop = -1.0;
@@ -112,16 +116,16 @@ void startWalk(ViewSegment segment, out Line line, out Walk walk) {
   line.origin = vec3(segment.p0.xy - kShift, segment.p0.z);
   vec3 end = vec3(segment.p1.xy - kShift, segment.p1.z);
   line.slope = end - line.origin;
-  ivec2 highest = shadowMapSize - 1;
-  line.last = clamp(ivec2(floor(end.xy)), ivec2(kLowest), highest);
-  walk.cell = clamp(ivec2(floor(line.origin.xy)), ivec2(kLowest), highest);
+  line.last = cellAt(end.xy, segment.view);
+  walk.cell = cellAt(line.origin.xy, segment.view);
   ivec2 extent = abs(line.last - walk.cell);
   walk.left = extent.x + extent.y + 1;
   walk.u = 0.0;
   walk.depth = line.origin.z;
   // Along an axis that the line does not move in the next grid line lies at u = 2, which is never reached.
   bvec2 moves = notEqual(extent, ivec2(0));
-  walk.ahead = vec2(walk.cell + ivec2(greaterThanEqual(line.slope.xy, vec2(0.0)))) - line.origin.xy;
+  ivec2 cell = walk.cell - shadowViews[segment.view].origin;
+  walk.ahead = vec2(cell + ivec2(greaterThanEqual(line.slope.xy, vec2(0.0)))) - line.origin.xy;
   walk.ahead = mix(vec2(2.0), walk.ahead, moves);
   line.inverse = mix(vec2(1.0), 1.0 / line.slope.xy, moves);
 }
@@ -146,8 +150,8 @@ void stepCell(Line line, inout Walk walk, float u, float depth) {
 #ifdef SKIPS_NODES
 
 // On to a later place on the line.
-void enterCell(Line line, inout Walk walk, float u) {
-  ivec2 cell = ivec2(floor(line.origin.xy + line.slope.xy * u));
+void enterCell(Line line, int view, inout Walk walk, float u) {
+  ivec2 cell = ivec2(floor(line.origin.xy + line.slope.xy * u)) + shadowViews[view].origin;
   cell = clamp(cell, min(walk.cell, line.last), max(walk.cell, line.last));
   walk.ahead += vec2(cell - walk.cell);
   walk.cell = cell;
@@ -158,13 +162,13 @@ void enterCell(Line line, inout Walk walk, float u) {
 }
 
 // Takes all nodes of a tree over the map in which the visibility is `current`, and sets where to look again.
-void skipNodes(Line line, Visibility current, inout Walk walk);
+void skipNodes(Line line, int view, Visibility current, inout Walk walk);
 
 #endif
 
 #if FILTER_BILINEAR
 
-// Bilinear weights of a cell's four corners at u, in the order of cornerDepths.
+// Bilinear weights of a cell's four corners at u, in the order of cornerDepths; of a cell that counts from the view's rectangle.
 vec4 cornerWeights(Line line, ivec2 cell, float u) {
   vec2 f = line.origin.xy + line.slope.xy * u - vec2(cell), g = 1.0 - f;
   return vec4(g.x * g.y, f.x * g.y, g.x * f.y, f.x * f.y);
@@ -203,7 +207,8 @@ Visibility pieceVisibility(Line line, ivec2 cell, int view, float u, inout float
   bvec4 lit = greaterThanEqual(depth, receiver);
   // The weights are quadratic along the line: two Gauss nodes give their mean exactly.
   float middle = 0.5 * (u + uEnd), node = 0.5773502691896257 * 0.5 * (uEnd - u);
-  vec4 weights = 0.5 * (cornerWeights(line, cell, middle - node) + cornerWeights(line, cell, middle + node));
+  ivec2 own = cell - shadowViews[view].origin;
+  vec4 weights = 0.5 * (cornerWeights(line, own, middle - node) + cornerWeights(line, own, middle + node));
   vec4 litWeights = mix(vec4(0.0), weights, lit);
 #if GLASS
   if (all(lit) && !any(lessThan(pane, receiver))) return vec3(1.0);
@@ -275,7 +280,7 @@ void addTexels(Airlight light, ViewSegment segment, inout Light sum) {
   Walk walk;
   startWalk(segment, line, walk);
 #if CURVES
-  vec2 d = (segment.p1.xy - segment.p0.xy) / vec2(shadowMapSize);
+  vec2 d = (segment.p1.xy - segment.p0.xy) / vec2(shadowViews[view].size);
   startCurves(segment, abs(d.x) >= abs(d.y), (abs(d.x) >= abs(d.y) ? d.x : d.y) < 0.0, 0);
 #endif
   // Bounds the loops whatever the arithmetic does: pieces of cells, changes between them, and one look at nodes every few cells.
@@ -289,7 +294,7 @@ void addTexels(Airlight light, ViewSegment segment, inout Light sum) {
     bool found = false;
     while (!found && !done) {
 #ifdef SKIPS_NODES
-      if (walk.u >= walk.stop) skipNodes(line, current, walk);
+      if (walk.u >= walk.stop) skipNodes(line, view, current, walk);
 #endif
       bool walking = true;
       while (walking) {

@@ -1,4 +1,5 @@
-// Texels of the light's shadow map and glass map, in one convention: depth grows away from the light.
+// Texels of the light's shadow map and glass map, in one convention: depth grows away from the light. Texels are those of a view's
+// layer: of them the view has its own rectangle alone.
 // SHADOW_ARRAY, FILTER_BILINEAR, GLASS: 0 or 1.
 
 #if SHADOW_ARRAY
@@ -38,18 +39,19 @@ vec3 paneTint(ivec2 texel, int view) {
 }
 #endif
 
-// The four texels around a cell (bilinear), clamped to the edge: low x low y, high x low y, low x high y, both high.
+// The view's last texel.
+ivec2 lastTexel(int view) { return shadowViews[view].origin + shadowViews[view].size - 1; }
+
+// The four texels around a cell (bilinear), clamped to the view's edge: low x low y, high x low y, low x high y, both high.
 vec4 cornerDepths(ivec2 cell, int view) {
-  ivec2 last = shadowMapSize - 1;
-  ivec2 low = max(cell, ivec2(0)), high = min(cell + 1, last);
+  ivec2 low = max(cell, shadowViews[view].origin), high = min(cell + 1, lastTexel(view));
   return vec4(casterDepth(low, view), casterDepth(ivec2(high.x, low.y), view), casterDepth(ivec2(low.x, high.y), view),
               casterDepth(high, view));
 }
 
 #if GLASS
 vec4 cornerPanes(ivec2 cell, int view) {
-  ivec2 last = shadowMapSize - 1;
-  ivec2 low = max(cell, ivec2(0)), high = min(cell + 1, last);
+  ivec2 low = max(cell, shadowViews[view].origin), high = min(cell + 1, lastTexel(view));
   return vec4(paneDepth(low, view), paneDepth(ivec2(high.x, low.y), view), paneDepth(ivec2(low.x, high.y), view),
               paneDepth(high, view));
 }
@@ -57,11 +59,10 @@ vec4 cornerPanes(ivec2 cell, int view) {
 // The same where clear glass is no glass.
 float tintedDepth(ivec2 texel, int view) { return paneTint(texel, view) == vec3(1.0) ? 3e38 : paneDepth(texel, view); }
 vec4 cornersTinted(ivec2 cell, int view) {
-  ivec2 last = shadowMapSize - 1;
-  ivec2 low = max(cell, ivec2(0)), high = min(cell + 1, last);
+  ivec2 low = max(cell, shadowViews[view].origin), high = min(cell + 1, lastTexel(view));
   return vec4(tintedDepth(low, view), tintedDepth(ivec2(high.x, low.y), view), tintedDepth(ivec2(low.x, high.y), view),
               tintedDepth(high, view));
 }
 
-vec3 cornerTint(ivec2 cell, int i, int view) { return paneTint(clamp(cell + ivec2(i & 1, i >> 1), ivec2(0), shadowMapSize - 1), view); }
+vec3 cornerTint(ivec2 cell, int i, int view) { return paneTint(clamp(cell + ivec2(i & 1, i >> 1), shadowViews[view].origin, lastTexel(view)), view); }
 #endif

@@ -7,7 +7,7 @@ RowLine trueRow; // of the slice on one side of the ray
 
 // As walkNodes of lib/tree.glsl, but from groups of four texels on, and from anywhere in one: its bounds hold for every
 // part of it.
-void skipNodes(Line line, Visibility current, inout Walk walk) {
+void skipNodes(Line line, int view, Visibility current, inout Walk walk) {
   walk.stop = 2.0;
   if (treeLevels == 0) return;
   float state = current == Visibility(1.0) ? 1.0 : current == Visibility(0.0) ? 0.0 : -1.0;
@@ -31,7 +31,7 @@ void skipNodes(Line line, Visibility current, inout Walk walk) {
       base -= walking ? rowLength >> (2 * level) : 0;
     }
   }
-  if (at.u > walk.u) enterCell(line, walk, at.u);
+  if (at.u > walk.u) enterCell(line, view, walk, at.u);
   int end = ((at.index >> 2) + 1) << 2;
   walk.stop = rowEnd(trueRow, at, end);
   if (walk.stop <= walk.u) walk.stop = rowEnd(trueRow, at, end + 4); // rounding left the walk a step behind

@@ -21,7 +21,7 @@ const int kMostPieces = (4 + kCornerSteps) * kFadeSteps * kMostViews;
 // its far plane. Empty if y <= x.
 vec2 wholeInterval(int view, Ray ray, float s0, float s1) {
   vec4 a = shadowViews[view].texelFromCamera * vec4(ray.origin, 1.0), b = shadowViews[view].texelFromCamera * vec4(ray.direction, 0.0);
-  vec2 inset = cascadeFade * vec2(shadowMapSize), end = vec2(shadowMapSize) - inset;
+  vec2 size = vec2(shadowViews[view].size), inset = cascadeFade * size, end = size - inset;
   clipInterval(a.x - inset.x * a.w, b.x - inset.x * b.w, s0, s1);
   clipInterval(a.y - inset.y * a.w, b.y - inset.y * b.w, s0, s1);
   clipInterval(end.x * a.w - a.x, end.x * b.w - b.x, s0, s1);
@@ -34,7 +34,7 @@ vec2 wholeInterval(int view, Ray ray, float s0, float s1) {
 // A view's weight at s: its distance to its nearest side, or to its far plane, over its fade.
 float viewWeight(int view, Ray ray, float s) {
   vec4 q = shadowViews[view].texelFromCamera * vec4(ray.origin + s * ray.direction, 1.0);
-  vec2 place = q.xy / (q.w * vec2(shadowMapSize)), side = min(place, 1.0 - place);
+  vec2 place = q.xy / (q.w * vec2(shadowViews[view].size)), side = min(place, 1.0 - place);
   float least = min(side.x, side.y), far = shadowViews[view].farDepth;
   if (shadowViews[view].isOpen == 0) least = min(least, (far - q.z / q.w) / (far - shadowViews[view].nearDepth));
   return clamp(least / cascadeFade, 0.0, 1.0);

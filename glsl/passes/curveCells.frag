@@ -18,7 +18,7 @@ layout(location = 0) out vec4 outEnds;
 void main() {
   int cell = int(gl_FragCoord.x), view = viewOfRow(int(gl_FragCoord.y));
   vec4 row = rowLine(view, sliceOfRow(int(gl_FragCoord.y)));
-  vec2 scale = float(curvesSize) / vec2(shadowMapSize), origin = row.xy * scale, step = row.zw * scale;
+  vec2 scale = float(curvesSize) / vec2(shadowViews[view].size), origin = row.xy * scale, step = row.zw * scale;
   bool alongX = isAlongX(row), mirrored = (alongX ? step.x : step.y) < 0.0;
   if (!alongX) {
     origin = origin.yx;

@@ -29,20 +29,20 @@ struct Point {
 ivec2 cornerOf(Point point, int i) { return ivec2(i % 2 == 0 ? point.corners.x : point.corners.z, i < 2 ? point.corners.y : point.corners.w); }
 
 Point pointAt(vec2 p, int view) {
-  ivec2 last = shadowMapSize - 1;
+  ivec2 last = shadowViews[view].size - 1, origin = shadowViews[view].origin;
   Point point;
 #if FILTER_BILINEAR
   ivec2 cell = clamp(ivec2(floor(p - 0.5)), ivec2(-1), last), low = max(cell, ivec2(0)), high = min(cell + 1, last);
   vec2 f = clamp(p - 0.5 - vec2(cell), 0.0, 1.0), g = 1.0 - f;
   point.weights = vec4(g.x * g.y, f.x * g.y, g.x * f.y, f.x * f.y);
-  point.caster = cornerDepths(cell, view);
+  point.caster = cornerDepths(cell + origin, view);
 #else
   ivec2 low = clamp(ivec2(floor(p)), ivec2(0), last), high = low;
   point.weights = vec4(1.0, 0.0, 0.0, 0.0);
-  point.caster = vec4(casterDepth(low, view));
+  point.caster = vec4(casterDepth(low + origin, view));
 #endif
   for (int i = 0; i < 4; ++i) point.caster[i] = coded(point.caster[i]);
-  point.corners = ivec4(low, high);
+  point.corners = ivec4(low + origin, high + origin);
   point.pane = point.caster;
 #if GLASS
   for (int i = 0; i < 1 + 3 * FILTER_BILINEAR; ++i)
@@ -152,10 +152,10 @@ void main() {
 void main() {
   int first = 4 * int(gl_FragCoord.x), view = viewOfRow(int(gl_FragCoord.y));
   vec4 row = rowLine(view, sliceOfRow(int(gl_FragCoord.y)));
-  ivec2 last = shadowMapSize - 1;
+  ivec2 last = shadowViews[view].size - 1, origin = shadowViews[view].origin;
   for (int k = 0; k < 4; ++k) {
     vec2 p = row.xy + row.zw * (float(first + k) + 0.5);
-    outDepths[k] = coded(casterDepth(clamp(ivec2(floor(p)), ivec2(0), last), view));
+    outDepths[k] = coded(casterDepth(clamp(ivec2(floor(p)), ivec2(0), last) + origin, view));
   }
 }
 

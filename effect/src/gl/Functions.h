@@ -58,6 +58,10 @@ using Sync = ::__GLsync*;
     (Enum target, Int level, Int internal, Sizei width, Sizei height, Int border, Enum format, Enum type,              \
      const void* pixels),                                                                                              \
     PixelStorage)                                                                                                      \
+  X(void, TexImage3D,                                                                                                  \
+    (Enum target, Int level, Int internal, Sizei width, Sizei height, Sizei depth, Int border, Enum format, Enum type, \
+     const void* pixels),                                                                                              \
+    PixelStorage)                                                                                                      \
   X(void, TexSubImage2D,                                                                                               \
     (Enum target, Int level, Int x, Int y, Sizei width, Sizei height, Enum format, Enum type, const void* pixels),     \
     PixelStorage)                                                                                                      \
@@ -89,6 +93,7 @@ using Sync = ::__GLsync*;
   X(void, DeleteFramebuffers, (Sizei n, const Uint* names), None)                                                      \
   X(void, BindFramebuffer, (Enum target, Uint framebuffer), Framebuffers)                                              \
   X(void, FramebufferTexture2D, (Enum target, Enum attachment, Enum kind, Uint texture, Int level), None)              \
+  X(void, FramebufferTextureLayer, (Enum target, Enum attachment, Uint texture, Int level, Int layer), None)           \
   X(Enum, CheckFramebufferStatus, (Enum target), None)                                                                 \
   X(void, DrawBuffers, (Sizei n, const Enum* buffers), None)                                                           \
   X(Uint, CreateShader, (Enum kind), None)                                                                             \
@@ -163,7 +168,6 @@ using Sync = ::__GLsync*;
   X(void, TexStorage3D, (Enum target, Sizei levels, Enum format, Sizei width, Sizei height, Sizei depth), None)        \
   X(void, ClearBufferSubData,                                                                                          \
     (Enum target, Enum internal, Intptr offset, Sizeiptr size, Enum format, Enum type, const void* data), None)        \
-  X(void, FramebufferTextureLayer, (Enum target, Enum attachment, Uint texture, Int level, Int layer), None)           \
   X(void, ClipControl, (Enum origin, Enum depth), ClipControl)                                                         \
   X(Enum, GetGraphicsResetStatus, (), None)                                                                            \
   X(Enum, GetGraphicsResetStatusARB, (), None)                                                                         \
@@ -185,6 +189,7 @@ struct Functions {
 #undef TYNDALL_GL_DECLARE
   // NOLINTEND(readability-identifier-naming)
   int version = 0;               ///< 10 * major + minor of the context
+  bool cubeArrays = false;       ///< GL_TEXTURE_CUBE_MAP_ARRAY is a target
   bool stencilTexturing = false; ///< a texture may show its stencil in place of its depth
   bool compatibility = false;    ///< of the compatibility profile
   bool parallelCompile = false;  ///< it says whether a program is complete without waiting for it

@@ -28,6 +28,10 @@ Enum targetOf(Int type) {
     return TEXTURE_2D_MULTISAMPLE;
   case SAMPLER_2D_MULTISAMPLE_ARRAY:
     return TEXTURE_2D_MULTISAMPLE_ARRAY;
+  case SAMPLER_CUBE:
+    return TEXTURE_CUBE_MAP;
+  case SAMPLER_CUBE_MAP_ARRAY:
+    return TEXTURE_CUBE_MAP_ARRAY;
   default:
     return NONE;
   }
@@ -73,6 +77,9 @@ void Program::bindBlocks(const Functions& gl) const {
   for (std::size_t i = 0; i < kBlocks.size(); ++i)
     if (const Uint index = gl.GetUniformBlockIndex(name(), kBlocks[i]); index != INVALID_INDEX)
       gl.UniformBlockBinding(name(), index, static_cast<Uint>(i));
+  // A copy has no slices.
+  if (const Uint index = gl.GetUniformBlockIndex(name(), "CopyBlock"); index != INVALID_INDEX)
+    gl.UniformBlockBinding(name(), index, 2);
 }
 
 } // namespace tyndall::gl

@@ -7,10 +7,15 @@ namespace tyndall::gl {
 
 namespace {
 
-constexpr std::array<Enum, 4> kTargets = {TEXTURE_2D, TEXTURE_2D_ARRAY, TEXTURE_2D_MULTISAMPLE,
-                                          TEXTURE_2D_MULTISAMPLE_ARRAY};
-constexpr std::array<Enum, 4> kTargetBindings = {TEXTURE_BINDING_2D, TEXTURE_BINDING_2D_ARRAY,
-                                                 TEXTURE_BINDING_2D_MULTISAMPLE, TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY};
+constexpr std::array<Enum, 6> kTargets = {
+    TEXTURE_2D,       TEXTURE_2D_ARRAY,      TEXTURE_2D_MULTISAMPLE, TEXTURE_2D_MULTISAMPLE_ARRAY,
+    TEXTURE_CUBE_MAP, TEXTURE_CUBE_MAP_ARRAY}; // which not all contexts have
+constexpr std::array<Enum, 6> kTargetBindings = {TEXTURE_BINDING_2D,
+                                                 TEXTURE_BINDING_2D_ARRAY,
+                                                 TEXTURE_BINDING_2D_MULTISAMPLE,
+                                                 TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY,
+                                                 TEXTURE_BINDING_CUBE_MAP,
+                                                 TEXTURE_BINDING_CUBE_MAP_ARRAY};
 
 // Whatever would keep a full-screen triangle from writing exactly its colours. Clip distances are added per context.
 constexpr std::array<Enum, 12> kCapabilities = {CULL_FACE,           DEPTH_TEST,         STENCIL_TEST,
@@ -121,7 +126,7 @@ void StateGuard::save() {
   saveViewport();
   activeUnit_ = integer(gl_, ACTIVE_TEXTURE);
   gl_.ActiveTexture(TEXTURE0);
-  saveUnit(0, {true, true, true, true});
+  saveUnit(0, {true, true, true, true, true, gl_.cubeArrays});
 }
 
 // What a pass expects, of what is not so.
@@ -193,10 +198,15 @@ void StateGuard::restoreUniformBindings() const {
   gl_.BindBuffer(UNIFORM_BUFFER, static_cast<Uint>(uniformBuffer_)); // after the indexed ones: they bind it too
 }
 
-void StateGuard::saveUnits(int count, bool arrays, bool multisampled) {
+void StateGuard::saveUnits(int count, const TextureKinds& kinds) {
   const int first = unitCount_;
   unitCount_ = std::max(count, first);
-  unitTargets_ = {true, unitTargets_[1] || arrays, unitTargets_[2] || multisampled, unitTargets_[3] || multisampled};
+  unitTargets_ = {true,
+                  unitTargets_[1] || kinds.arrays,
+                  unitTargets_[2] || kinds.multisampled,
+                  unitTargets_[3] || kinds.multisampled,
+                  unitTargets_[4] || kinds.cubes,
+                  unitTargets_[5] || kinds.cubeArrays};
   if (!restores()) return;
   for (int i = first; i < unitCount_; ++i) {
     gl_.ActiveTexture(TEXTURE0 + static_cast<Enum>(i));
@@ -206,7 +216,7 @@ void StateGuard::saveUnits(int count, bool arrays, bool multisampled) {
 }
 
 // The unit is active.
-void StateGuard::saveUnit(int index, const std::array<bool, 4>& targets) {
+void StateGuard::saveUnit(int index, const std::array<bool, kTargetCount>& targets) {
   units_.resize(static_cast<std::size_t>(index) + 1);
   Unit& unit = units_.back();
   for (std::size_t t = 0; t < kTargets.size(); ++t)
@@ -214,12 +224,17 @@ void StateGuard::saveUnit(int index, const std::array<bool, 4>& targets) {
   unit.sampler = integer(gl_, SAMPLER_BINDING);
 }
 
+// In the first unit textures of all kinds are looked at.
+bool StateGuard::isBoundIn(int unit, std::size_t target) const {
+  return unit > 0 ? unitTargets_[target] : kTargets[target] != TEXTURE_CUBE_MAP_ARRAY || gl_.cubeArrays;
+}
+
 void StateGuard::restoreUnits() const {
   std::vector<Uint> samplers;
   for (std::size_t i = 0; i < units_.size(); ++i) {
     gl_.ActiveTexture(TEXTURE0 + static_cast<Enum>(i));
     for (std::size_t t = 0; t < kTargets.size(); ++t)
-      if (i == 0 || unitTargets_[t]) gl_.BindTexture(kTargets[t], static_cast<Uint>(units_[i].textures[t]));
+      if (isBoundIn(static_cast<int>(i), t)) gl_.BindTexture(kTargets[t], static_cast<Uint>(units_[i].textures[t]));
     samplers.push_back(static_cast<Uint>(units_[i].sampler));
     if (!gl_.BindSamplers) gl_.BindSampler(static_cast<Uint>(i), samplers.back());
   }
@@ -342,7 +357,7 @@ void StateGuard::emptyUnits() const {
   for (int i = unitCount_ - 1; i >= 0 && !gl_.BindTextures; --i) {
     gl_.ActiveTexture(TEXTURE0 + static_cast<Enum>(i));
     for (std::size_t t = 0; t < kTargets.size(); ++t)
-      if (i == 0 || unitTargets_[t]) gl_.BindTexture(kTargets[t], 0);
+      if (isBoundIn(i, t)) gl_.BindTexture(kTargets[t], 0);
     gl_.BindSampler(static_cast<Uint>(i), 0);
   }
   gl_.ActiveTexture(TEXTURE0);

@@ -16,6 +16,11 @@ namespace tyndall::gl {
 inline constexpr int kUniformBindings = 3; ///< uniform buffer bindings 0..2 likewise
 inline constexpr Uint kDrawBuffers = 3;    ///< draw buffers 0..2 are those that passes draw into
 
+/// Kinds of textures that units may hold, beside GL_TEXTURE_2D.
+struct TextureKinds {
+  bool arrays = false, multisampled = false, cubes = false, cubeArrays = false;
+};
+
 /// Saved are texture unit 0, where textures are checked and made, and all rows but those that have a function of their
 /// own, which is to be called before they change.
 class StateGuard {
@@ -25,16 +30,17 @@ public:
   StateGuard(const StateGuard&) = delete;
   StateGuard& operator=(const StateGuard&) = delete;
 
-  /// Units 1 to count - 1: GL_TEXTURE_2D and, if they will be bound there, arrays and multisampled textures.
-  void saveUnits(int count, bool arrays, bool multisampled);
+  /// Units 1 to count - 1: GL_TEXTURE_2D and the kinds that will be bound there.
+  void saveUnits(int count, const TextureKinds& kinds);
   /// Function, operation and mask of the stencil; its test is off in any case.
   void saveStencil();
   /// Of viewport 0; its test is off in any case.
   void saveScissorBox();
 
 private:
+  static constexpr std::size_t kTargetCount = 6;
   struct Unit {
-    std::array<Int, 4> textures{}; // one per target of kTargets
+    std::array<Int, kTargetCount> textures{}; // one per target of kTargets
     Int sampler = 0;
   };
   struct UniformBinding {
@@ -54,7 +60,7 @@ private:
 
   bool restores() const { return mode_ == StateMode::Restore; }
   void save();
-  void saveUnit(int index, const std::array<bool, 4>& targets);
+  void saveUnit(int index, const std::array<bool, kTargetCount>& targets);
   void saveUniformBindings();
   void saveDrawBuffers();
   void saveViewport();
@@ -67,6 +73,7 @@ private:
   void setDefaults() const;
   void leave() const;
   void emptyUnits() const;
+  bool isBoundIn(int unit, std::size_t target) const;
 
   const Functions& gl_;
   StateMode mode_;
@@ -86,8 +93,8 @@ private:
   std::vector<Enum> capabilities_; // that are on
   std::array<UniformBinding, kUniformBindings> uniformBindings_;
   std::array<DrawBuffer, kDrawBuffers> drawBuffers_;
-  int unitCount_ = 1; // units 0 to unitCount_ - 1
-  std::array<bool, 4> unitTargets_{true, false, false, false};
+  int unitCount_ = 1;                                // units 0 to unitCount_ - 1
+  std::array<bool, kTargetCount> unitTargets_{true}; // of units from 1 on
   std::vector<Unit> units_;
   bool savesStencil_ = false;
   std::array<StencilFace, 2> stencil_;

@@ -99,6 +99,12 @@ void setCameraRays(blocks::FrameBlock& block, const Frame& frame) {
 
 } // namespace
 
+bool isWholeLayer(const Rectangle& r) { return r.x == 0 && r.y == 0 && r.width == 0 && r.height == 0; }
+
+Rectangle texelsOf(const ShadowView& view, int width, int height) {
+  return isWholeLayer(view.rectangle) ? Rectangle{0, 0, width, height} : view.rectangle;
+}
+
 glm::dvec3 cameraOrigin(const Camera& camera) {
   return eyeOf(depthFromClip(camera.clipDepth) * toGlm(camera.clipFromView) * toGlm(camera.viewFromWorld));
 }
@@ -249,30 +255,28 @@ blocks::LightBlock lightBlock(const Frame& frame, const Light& light, int shadow
   const auto count = static_cast<int>(light.shadow.texture ? light.shadow.views.size() : 0);
   block.viewCount = count;
   block.isLitOutside = light.litOutsideViews ? 1 : 0;
-  block.shadowMapSize = {shadowWidth, shadowHeight};
   for (int i = 0; i < count; ++i) {
     const ShadowView& view = light.shadow.views[static_cast<std::size_t>(i)];
     const glm::dmat4 depthClipFromWorld = depthFromClip(light.shadow.clipDepth) * toGlm(view.clipFromWorld);
-    const glm::dmat4 worldFromClip = glm::inverse(depthClipFromWorld);
-    const glm::dvec4 centre = worldFromClip * glm::dvec4(0, 0, 0.5, 1);
-    const glm::dvec3 travel =
-        light.kind == LightKind::Directional ? direction : glm::dvec3(centre) / centre.w - toGlm(light.position);
-    const bool reversed = isReversed(depthClipFromWorld, travel);
+    const bool reversed = isReversedView(light, i);
     // Clip x, y to texels and depth to a value that grows away from the light: 0..1, or -1..0 if reversed.
     glm::dmat4 texelFromClip(1);
-    texelFromClip[0][0] = texelFromClip[3][0] = 0.5 * shadowWidth;
-    texelFromClip[1][1] = texelFromClip[3][1] = 0.5 * shadowHeight;
+    const Rectangle texels = texelsOf(view, shadowWidth, shadowHeight);
+    texelFromClip[0][0] = texelFromClip[3][0] = 0.5 * texels.width;
+    texelFromClip[1][1] = texelFromClip[3][1] = 0.5 * texels.height;
     texelFromClip[2][2] = reversed ? -1 : 1;
     const glm::dmat4 texelFromCamera = texelFromClip * glm::translate(depthClipFromWorld, origin);
     blocks::MapView& map = block.shadowViews[i];
     map.texelFromCamera = glm::mat4(texelFromCamera);
-    map.margin = marginOf(texelFromCamera, glm::dvec2(shadowWidth, shadowHeight), light, toGlm(light.position) - origin,
-                          extentOf(frame.camera));
+    map.margin = marginOf(texelFromCamera, glm::dvec2(texels.width, texels.height), light,
+                          toGlm(light.position) - origin, extentOf(frame.camera));
     const bool open = light.kind != LightKind::Directional || i == count - 1;
     map.nearDepth = reversed ? -1 : 0;
     map.farDepth = reversed ? 0 : 1;
     map.depthSign = reversed ? -1 : 1;
     map.isOpen = open ? 1 : 0;
+    map.origin = {texels.x, texels.y};
+    map.size = {texels.width, texels.height};
     map.layer = view.layer;
     if (curvesSize == 0) continue;
     const glm::dvec4 depth = linearDepth(light, i).coefficients;

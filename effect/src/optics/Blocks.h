@@ -22,7 +22,13 @@ glm::dvec3 cameraOrigin(const Camera& camera);
 /// The frame's camera is without its jitter (optics/Jitter.h), here and elsewhere in optics.
 blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes);
 
-/// shadowWidth, shadowHeight, curvesSize: texels, 0 without a shadow map or curves.
+/// The texels of a layer of so many that show a view.
+Rectangle texelsOf(const ShadowView& view, int layerWidth, int layerHeight);
+
+/// True of a rectangle that is not set.
+bool isWholeLayer(const Rectangle& rectangle);
+
+/// shadowWidth, shadowHeight, curvesSize: texels of a layer, 0 without a shadow map or curves.
 blocks::LightBlock lightBlock(const Frame& frame, const Light& light, int shadowWidth, int shadowHeight,
                               int curvesSize = 0);
 

@@ -49,15 +49,21 @@ bool isReversed(const glm::dmat4& depthClipFromWorld, const glm::dvec3& directio
   return slope.z * clip.w - clip.z * slope.w < 0; // the sign of d(z / w)
 }
 
+bool isReversedView(const Light& light, int view) {
+  const glm::dmat4 depthClipFromWorld =
+      depthFromClip(light.shadow.clipDepth) * toGlm(light.shadow.views[static_cast<std::size_t>(view)].clipFromWorld);
+  const glm::dvec4 centre = glm::inverse(depthClipFromWorld) * glm::dvec4(0, 0, 0.5, 1);
+  const glm::dvec3 travel = light.kind == LightKind::Directional
+                                ? toGlm(light.direction)
+                                : glm::dvec3(centre) / centre.w - toGlm(light.position);
+  return isReversed(depthClipFromWorld, travel);
+}
+
 DepthPlane linearDepth(const Light& light, int view) {
   const glm::dmat4 depthClipFromWorld =
       depthFromClip(light.shadow.clipDepth) * toGlm(light.shadow.views[static_cast<std::size_t>(view)].clipFromWorld);
   const glm::dmat4 worldFromClip = glm::inverse(depthClipFromWorld);
-  const glm::dvec4 centre = worldFromClip * glm::dvec4(0, 0, 0.5, 1);
-  const glm::dvec3 travel = light.kind == LightKind::Directional
-                                ? toGlm(light.direction)
-                                : glm::dvec3(centre) / centre.w - toGlm(light.position);
-  const bool reversed = isReversed(depthClipFromWorld, travel);
+  const bool reversed = isReversedView(light, view);
   const glm::dvec4 near = worldFromClip * glm::dvec4(0, 0, reversed ? 1 : 0, 1);
   const glm::dvec4 far = worldFromClip * glm::dvec4(0, 0, reversed ? 0 : 1, 1);
   // A perspective far plane is as many times farther as its homogeneous weight is smaller: no more than what floats

@@ -32,6 +32,9 @@ glm::dvec3 eyeOf(const glm::dmat4& depthClipFromWorld);
 /// True if depth (clip z / w, mapped to [0, 1]) decreases along the direction at the centre of the clip volume.
 bool isReversed(const glm::dmat4& depthClipFromWorld, const glm::dvec3& direction);
 
+/// The same of a light's shadow view, away from the light.
+bool isReversedView(const Light& light, int view);
+
 /// Depth that is linear along a shadow view, 0 at its near and 1 at its far plane: dot(coefficients.xyz, p) + w.
 struct DepthPlane {
   glm::dvec4 coefficients{0};

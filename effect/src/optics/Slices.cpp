@@ -232,7 +232,7 @@ SliceTable makeSlices(const Frame& frame, const Light& light, int shadowWidth, i
     rays.at(exit, begin, direction);
     for (std::size_t v = 0; v < views; ++v) {
       const Row row = rowOf(glm::dmat4(lightMatrices.shadowViews[v].texelFromCamera), begin, direction,
-                            !rays.orthographic, dvec2(shadowWidth, shadowHeight), frame.settings.rowStep);
+                            !rays.orthographic, dvec2(lightMatrices.shadowViews[v].size), frame.settings.rowStep);
       table.texels[(2 + 2 * v) * count + i] = row.originStep;
       table.texels[(3 + 2 * v) * count + i] = glm::vec4(row.texels, 0, 0, 0);
       table.longestRow = std::max(table.longestRow, static_cast<int>(row.texels));

@@ -1,7 +1,5 @@
 #include "plan/DrawPlan.h"
 
-#include "gl/StateGuard.h"
-
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -288,8 +286,10 @@ UnitsUsed unitsOf(const FramePlan& plan) {
     used.stencil = used.stencil || !draw.stencil.isOff();
     for (const Draw::Reading& reading : draw.textures) {
       used.count = std::max(used.count, static_cast<int>(reading.unit) + 1);
-      used.arrays = used.arrays || reading.target == gl::TEXTURE_2D_ARRAY;
-      used.multisampled = used.multisampled || isMultisampled(reading.target);
+      used.kinds.arrays = used.kinds.arrays || reading.target == gl::TEXTURE_2D_ARRAY;
+      used.kinds.multisampled = used.kinds.multisampled || isMultisampled(reading.target);
+      used.kinds.cubes = used.kinds.cubes || reading.target == gl::TEXTURE_CUBE_MAP;
+      used.kinds.cubeArrays = used.kinds.cubeArrays || reading.target == gl::TEXTURE_CUBE_MAP_ARRAY;
     }
   });
   return used;

@@ -4,6 +4,7 @@
 #include "BandPaces.h"
 #include "PassRecorder.h"
 #include "gl/ProgramCache.h"
+#include "gl/StateGuard.h"
 #include "plan/BlockBuffers.h"
 #include "plan/FramePlan.h"
 
@@ -20,7 +21,8 @@ struct DrawObjects {
 /// Texture units and targets that a plan's programs read, and what else of GL's state its draws change.
 struct UnitsUsed {
   int count = 0;
-  bool arrays = false, multisampled = false, stencil = false, scissor = false;
+  gl::TextureKinds kinds;
+  bool stencil = false, scissor = false;
 };
 
 /// Starts to build the plan's programs.

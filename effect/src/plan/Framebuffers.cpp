@@ -37,7 +37,10 @@ bool Framebuffers::attach(const Entry& entry) const {
   gl::Sizei count = 1;
   for (gl::Enum i = 0; i < buffers.size(); ++i) {
     const gl::Uint texture = what.colours[i];
-    gl_.FramebufferTexture2D(gl::DRAW_FRAMEBUFFER, gl::COLOR_ATTACHMENT0 + i, gl::TEXTURE_2D, texture, 0);
+    if (what.layer >= 0 && texture)
+      gl_.FramebufferTextureLayer(gl::DRAW_FRAMEBUFFER, gl::COLOR_ATTACHMENT0 + i, texture, 0, what.layer);
+    else
+      gl_.FramebufferTexture2D(gl::DRAW_FRAMEBUFFER, gl::COLOR_ATTACHMENT0 + i, gl::TEXTURE_2D, texture, 0);
     buffers[i] = texture ? gl::COLOR_ATTACHMENT0 + i : gl::NONE;
     if (texture) count = static_cast<gl::Sizei>(i) + 1;
   }

@@ -15,8 +15,9 @@ struct Attachments {
   std::array<gl::Uint, 3> colours{}; ///< textures; 0: nothing is written to that output
   gl::Uint stencil = 0;              ///< renderbuffer
   bool engines = false;              ///< a texture of the engine's is among them
+  int layer = -1;                    ///< of the textures, if they are arrays; -1: they are none
   bool operator==(const Attachments& other) const {
-    return colours == other.colours && stencil == other.stencil && engines == other.engines;
+    return colours == other.colours && stencil == other.stencil && engines == other.engines && layer == other.layer;
   }
 };
 

@@ -62,7 +62,13 @@ bool takesSeveral(std::string_view fragment, const Values& values) {
   return values["LIGHT_KIND"] == 1 || isSeldom(fragment, values) || isOneOf(fragment, {"tintGroups"});
 }
 
-// A texture of one layer has one view.
+// Several views of one texture where that is seldom: the light's maps are copied into an array (plan/MapCopies.cpp).
+bool isSeldomAtlas(std::string_view fragment, const Values& values) {
+  if (values["SHADOW_ARRAY"] != 0 || values["SHADOW_VIEWS"] != 2) return false;
+  return isMixture(values) || values["LOW_RANK"] != 0 || values["COUNT_VISITS"] != 0 || values["TINT_SUMS"] != 0 ||
+         isOneOf(fragment, {"fixup", "tintGroups"});
+}
+
 void chooseMaps(std::string_view fragment, Values values) {
   if (values["SHADOW_VIEWS"] == 0) return;
   const bool several = values["SHADOW_VIEWS"] == 2 || takesSeveral(fragment, values);
@@ -71,8 +77,10 @@ void chooseMaps(std::string_view fragment, Values values) {
     if (several) values.set("SHADOW_VIEWS", 2);
     return;
   }
+  if (isSeldomAtlas(fragment, values)) values.set("SHADOW_ARRAY", 1);
   if (values["SHADOW_ARRAY"] != 0 && several) values.set("SHADOW_VIEWS", 2);
-  if (values["SHADOW_ARRAY"] == 0 && values["LIGHT_KIND"] == 1) values.set("LIGHT_KIND", 2);
+  if (values["SHADOW_ARRAY"] == 0 && values["SHADOW_VIEWS"] == 1 && values["LIGHT_KIND"] == 1)
+    values.set("LIGHT_KIND", 2);
 }
 
 } // namespace

@@ -22,15 +22,53 @@ LightPlanner::LightPlanner(const PassPlanner& planner, const Frame& lit, const D
   board[Resource::GlassColour] = light.glass.colour;
   board[Resource::GlassDepth] = light.glass.depth;
   board[Resource::Curves] = light.curves.texture;
-  mapSize_ = {map.width, map.height};
+  copies_ = drawn.copies;
+  layerSize_ = {map.width, map.height};
   if (variant.shadowViews > 0) shadowViews_ = static_cast<int>(light.shadow.views.size());
+  for (int i = 0; i < shadowViews_; ++i)
+    mapSize_ = {std::max(mapSize_.width, drawn.block.shadowViews[i].size.x),
+                std::max(mapSize_.height, drawn.block.shadowViews[i].size.y)};
   paths.views = shadowViews_;
   paths.map = mapSize_;
+  if (copies_.empty()) return;
+  source_ = map.copySource;
+  extent.mapCopy = {mapSize_.width, mapSize_.height, shadowViews_};
+  extent.floatTint = map.floatTint;
+}
+
+void LightPlanner::copyMaps(const Board* last) {
+  if (copies_.empty()) return;
+  if (last && textureOf(Resource::ShadowCopy) == (*last)[Resource::ShadowCopy]) return takeCopies(*last);
+  for (std::size_t i = 0; i < copies_.size(); ++i) {
+    epipolarBlock = plan.add(copies_[i]);
+    const glm::ivec2 size = copies_[i].copiedSize;
+    DrawOptions options{{{"SOURCE", source_}, {"GLASS", variant.glass ? 1 : 0}}};
+    options.viewport = Viewport{0, 0, size.x, size.y};
+    options.layer = static_cast<int>(i);
+    draw(Pass::MapCopy, options);
+  }
+  readCopies();
+}
+
+void LightPlanner::takeCopies(const Board& last) {
+  if (copies_.empty()) return;
+  skip("map copy", "the maps have not changed");
+  for (const Resource resource : {Resource::ShadowCopy, Resource::GlassColourCopy, Resource::GlassDepthCopy}) {
+    board[resource] = last[resource];
+    if (board[resource] != 0) textureOf(resource); // which is needed in this frame
+  }
+  readCopies();
+}
+
+void LightPlanner::readCopies() {
+  board[Resource::ShadowMap] = board[Resource::ShadowCopy];
+  board[Resource::GlassColour] = board[Resource::GlassColourCopy];
+  board[Resource::GlassDepth] = board[Resource::GlassDepthCopy];
 }
 
 void LightPlanner::makeSlices(const Limits& limits) {
   const Settings& settings = frame.settings;
-  geometry = optics::makeSlices(frame, light, mapSize_.width, mapSize_.height);
+  geometry = optics::makeSlices(frame, light, layerSize_.width, layerSize_.height);
   regularSamples = geometry.regularSamples;
   block = geometry.block;
   block.breakThreshold = settings.breakThreshold;

@@ -17,6 +17,7 @@ struct DrawnLight {
   std::string name;
   Settings settings;
   blocks::LightBlock block;
+  std::vector<blocks::CopyBlock> copies; ///< of its maps, one a view; empty: passes read them as they are
   LightVariant variant;
 };
 
@@ -30,6 +31,11 @@ class LightPlanner : public PassPlanner {
 public:
   /// `frame` has the light's own settings.
   LightPlanner(const PassPlanner& planner, const Frame& frame, const DrawnLight& light, const FrameTextures& textures);
+
+  /// Has the maps copied, if passes read copies of them, unless those that the light had last hold the same.
+  void copyMaps(const Board* last = nullptr);
+  /// Those that the light had last, which hold the same.
+  void takeCopies(const Board& last);
 
   /// Slices of the light in the image and in its shadow map, on the CPU (Yusov 2013, "Generating epipolar lines").
   void makeSlices(const Limits& limits);
@@ -61,11 +67,15 @@ protected:
   int sideOf(Lifetime lifetime) const override;
 
 private:
+  void readCopies();
   void chooseRow(int longestRow);
   int chooseViewsPerDraw(const Limits& limits) const;
 
+  std::vector<blocks::CopyBlock> copies_;
+  int source_ = 0; // SOURCE of the copies
   int shadowViews_ = 0;
-  Size mapSize_; // of the shadow map
+  Size layerSize_; // of the shadow map
+  Size mapSize_;   // of the largest view
 };
 
 } // namespace tyndall

@@ -44,7 +44,7 @@ std::vector<LightVariant> allLightVariants(bool dualSource) {
       v.bilinear = (bits & 2) != 0;
       v.glass = (bits & 4) != 0;
       v.curves = (bits & 8) != 0;
-      for (v.shadowViews = 1; v.shadowViews <= (kind != 2 && v.shadowArray ? 2 : 1); ++v.shadowViews)
+      for (v.shadowViews = 1; v.shadowViews <= (kind != 2 ? 2 : 1); ++v.shadowViews)
         add(v);
     }
   }

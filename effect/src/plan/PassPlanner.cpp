@@ -120,7 +120,7 @@ void PassPlanner::addTarget(const PassRow& row, const DrawOptions& options, Draw
   const bool withStencil = !draw.stencil.isOff();
   switch (row.into) {
   case Into::Own:
-    addOwnTarget(row, withStencil, draw);
+    addOwnTarget(row, options.layer, withStencil, draw);
     break;
   case Into::Destination:
     draw.framebuffer = destinationTarget(draw.blend, withStencil);
@@ -137,8 +137,9 @@ void PassPlanner::addTarget(const PassRow& row, const DrawOptions& options, Draw
   }
 }
 
-void PassPlanner::addOwnTarget(const PassRow& row, bool withStencil, Draw& draw) {
+void PassPlanner::addOwnTarget(const PassRow& row, int layer, bool withStencil, Draw& draw) {
   Attachments attachments;
+  attachments.layer = layer;
   if (withStencil) attachments.stencil = allocator.stencil(frameTargets, extent);
   std::size_t count = 0;
   for (const Resource resource : row.writes) {

@@ -49,6 +49,7 @@ struct DrawOptions {
   std::optional<Viewport> viewport = {}; ///< in place of what the resource's row says
   std::optional<float> clearTo = {};     ///< clears the target first
   gl::Uint output = 0;                   ///< Into::Output: which texture
+  int layer = -1;                        ///< of the resource's textures, if they are arrays
   bool adds = false;                     ///< to a destination that has light or transmittance already
 };
 
@@ -106,7 +107,7 @@ private:
   Stencil stencilFor(Shape shape, Stencil stencil) const;
   void addReads(const PassRow& row, Draw& draw) const;
   void addTarget(const PassRow& row, const DrawOptions& options, Draw& draw);
-  void addOwnTarget(const PassRow& row, bool withStencil, Draw& draw);
+  void addOwnTarget(const PassRow& row, int layer, bool withStencil, Draw& draw);
   void addVertices(Shape shape, bool changes, Draw& draw) const;
   void addBands(const PassRow& row, Draw& draw) const;
   Blend blendOf(Joining joining, bool adds) const;

@@ -137,6 +137,11 @@ std::vector<PassRow> makeRows() {
           .into(Into::Output)
           .options({{"CAPPED", {1}}})
           .sameForAllLights(),
+      Row(Pass::MapCopy, "map copy", "passes/mapCopy.frag")
+          .reads({R::ShadowMap, R::GlassColour, R::GlassDepth})
+          .writes({R::ShadowCopy, R::GlassColourCopy, R::GlassDepthCopy})
+          .options({{"SOURCE", {0, 1, 2, 3}}, {"GLASS", {0, 1}}})
+          .sameForAllLights(),
       Row(Pass::SampleEnds, "sample ends", "passes/sampleEnds.frag", S::Slices)
           .reads({R::SceneDepth, R::SliceTable})
           .readsIfThere({R::LastSampleEnds})

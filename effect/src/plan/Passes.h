@@ -19,6 +19,7 @@ enum class Pass {
   CopyColour,
   CompositeOfCopy,
   CopyToOutput,
+  MapCopy, // of a light, where passes do not read its maps as they are
   // A light's rows and slices (passes/Epipolar.cpp has the picture).
   SampleEnds,
   RowDepths,

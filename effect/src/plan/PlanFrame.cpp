@@ -171,7 +171,7 @@ std::vector<DrawnLight> FramePlanner::lightsToDraw(const Frame& frame, const Des
     const FrameTextures::Shadow& map = in_.textures.shadows[i];
     if (drawn[i])
       lights.push_back({i, nameOf(frame, i), settings[i],
-                        optics::lightBlock(frame, frame.lights[i], map.width, map.height, map.curvesSize),
+                        optics::lightBlock(frame, frame.lights[i], map.width, map.height, map.curvesSize), map.copies,
                         variantOf(frame, frame.lights[i], passes_.variant.dualSource, direct)});
   }
   return lights;
@@ -186,6 +186,7 @@ void FramePlanner::planLights(const Frame& frame, const Destination& destination
     lit.settings = drawn.settings;
     passes.firstLight = &drawn == &lights.front();
     LightPlanner light(passes, lit, drawn, in_.textures);
+    light.copyMaps();
     if (!usesSlices(frame)) {
       out_.plan.marched += light.pixels();
       light.drawLight(Pass::Exact, drawn.name, {});

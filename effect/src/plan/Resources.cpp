@@ -14,12 +14,13 @@ using Format = TexelFormat;
 
 constexpr Format kGiven{}, kR8{gl::R8, gl::RED, 1}, kR32{gl::R32F, gl::RED, 4}, kRg32{gl::RG32F, gl::RG, 8},
     kRgba32{gl::RGBA32F, gl::RGBA, 16}, kRgba16{gl::RGBA16F, gl::RGBA, 8}, kUnorm2{gl::RG16, gl::RG, 4},
-    kUnorm4{gl::RGBA16, gl::RGBA, 8};
+    kUnorm4{gl::RGBA16, gl::RGBA, 8}, kRgba8{gl::RGBA8, gl::RGBA, 4};
 
 constexpr int kPartTexels = 256, kChunk = 64;
 
 bool always(E) { return true; }
 bool wideColour(E e) { return e.wideColour; }
+bool floatTint(E e) { return e.floatTint; }
 bool coloured(E e) { return e.coloured; }
 bool floatRows(E e) { return e.floatRows; }
 bool glass(E e) { return e.glass; }
@@ -55,6 +56,8 @@ Size twos(E e) { return {e.slices, e.samples / 2}; }
 Size slices(E e) { return {e.slices, 1}; }
 Size one(E) { return {1, 1}; }
 Size imageRows(E e) { return {e.height, 1}; }
+
+Size mapCopy(E e) { return e.mapCopy; }
 
 Size groups(E e) { return {e.rowTexels / 4, e.rowRoom}; }
 Size drawnGroups(E e) { return {e.drawnTexels / 4, e.rows}; }
@@ -94,6 +97,10 @@ constexpr ResourceRow kRows[] = {
     {"empty", kR32, kR32, always, always, one, one, Lifetime::Frame, "what a sampler reads that has nothing to read"},
     {"plain depth", kR32, kR32, always, always, image, image, Lifetime::Frame,
      "the scene depth out of a larger, smaller, layered, multisampled or encoded one"},
+    {"shadow copy", kR32, kR32, always, always, mapCopy, mapCopy, Lifetime::Light,
+     "shadow maps that are cubes, hold other than window depth, or are seldom so: a layer for each view"},
+    {"glass colour copy", kRgba32, kRgba8, floatTint, glass, mapCopy, mapCopy, Lifetime::Light, "the same of glass"},
+    {"glass depth copy", kR32, kR32, always, glass, mapCopy, mapCopy, Lifetime::Light, "the same of glass"},
     {"inscatter", kRgba32, kRgba32, always, always, image, image, Lifetime::Eye,
      "where the engine wants its own transmittance and a composite"},
     {"transmittance", kRgba32, kRgba32, always, always, image, image, Lifetime::Eye,

@@ -24,6 +24,9 @@ enum class Resource {
   // The effect's own.
   Empty,
   PlainDepth, // as SceneDepth
+  ShadowCopy,
+  GlassColourCopy,
+  GlassDepthCopy,
   Inscatter,
   Transmittance,
   ColourCopy,
@@ -77,6 +80,11 @@ enum class Resource {
   Count
 };
 
+struct Size {
+  int width = 0, height = 0;
+  int layers = 0; ///< of a GL_TEXTURE_2D_ARRAY; 0: a GL_TEXTURE_2D
+};
+
 /// What the sizes and formats of a light's or a frame's own textures follow.
 struct Extent {
   int width = 0, height = 0; ///< of the image
@@ -84,19 +92,17 @@ struct Extent {
   int rowTexels = 0, rowRoom = 0; ///< texels of a row and rows that row textures have room for
   int drawnTexels = 0, rows = 0;  ///< those of this frame, and of the draw that is selected
   int treeLevels = 0;
+  Size mapCopy;                   ///< of a light's maps: texels of its largest view, and a layer for each
   int curveCells = 0;             ///< texels per side of the map of Light::curves
   int terms = 0, lowRankSets = 0; ///< Technique::LowRank
   int tintLevel = 0;              ///< of the sums of tints: 0 is the finest
   bool wideColour = true;         ///< the engine's colour is one of 32-bit floats
+  bool floatTint = true;          ///< tints of the glass map have more than 8 bits
   bool coloured = true;           ///< three channels of radiance
   bool floatRows = true;          ///< depths of rows in 32 bits, not in 16
   bool glass = false;
   bool shares = false; ///< a group of texels may be lit in part: filtered or glass
   bool hashes = false; ///< temporal reuse wants them of rows that have shares
-};
-
-struct Size {
-  int width = 0, height = 0;
 };
 
 struct TexelFormat {

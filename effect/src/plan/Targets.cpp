@@ -8,6 +8,14 @@
 
 namespace tyndall {
 
+namespace {
+
+bool sameSize(const Size& a, const Size& b) {
+  return a.width == b.width && a.height == b.height && a.layers == b.layers;
+}
+
+} // namespace
+
 Targets::~Targets() { dropOlderThan(-1); }
 
 gl::Uint Targets::get(Resource resource, const Extent& extent, int side) {
@@ -34,7 +42,7 @@ gl::Uint Targets::stencil(const Extent& extent) {
 gl::Uint Targets::find(const Slot& wanted) {
   for (Slot& slot : slots_)
     if (slot.resource == wanted.resource && slot.side == wanted.side && slot.format == wanted.format &&
-        slot.size.width == wanted.size.width && slot.size.height == wanted.size.height) {
+        sameSize(slot.size, wanted.size)) {
       slot.age = 0;
       return slot.name();
     }
@@ -62,10 +70,15 @@ bool Targets::make(Slot& slot) const {
   const gl::Enum channels = slot.format == row.wide.internal ? row.wide.channels : row.narrow.channels;
   slot.texture = gl::Texture(gl_);
   gl_.ActiveTexture(gl::TEXTURE0);
-  gl_.BindTexture(gl::TEXTURE_2D, slot.texture.name());
-  gl_.TexParameteri(gl::TEXTURE_2D, gl::TEXTURE_MAX_LEVEL, 0);
-  gl_.TexImage2D(gl::TEXTURE_2D, 0, static_cast<gl::Int>(slot.format), slot.size.width, slot.size.height, 0, channels,
-                 gl::FLOAT, nullptr);
+  const gl::Enum target = slot.size.layers > 0 ? gl::TEXTURE_2D_ARRAY : gl::TEXTURE_2D;
+  const auto format = static_cast<gl::Int>(slot.format);
+  gl_.BindTexture(target, slot.texture.name());
+  gl_.TexParameteri(target, gl::TEXTURE_MAX_LEVEL, 0);
+  if (slot.size.layers > 0)
+    gl_.TexImage3D(target, 0, format, slot.size.width, slot.size.height, slot.size.layers, 0, channels, gl::FLOAT,
+                   nullptr);
+  else
+    gl_.TexImage2D(target, 0, format, slot.size.width, slot.size.height, 0, channels, gl::FLOAT, nullptr);
   gl::label(gl_, gl::TEXTURE, slot.texture.name(), row.name);
   return errors.take() != gl::OUT_OF_MEMORY;
 }
@@ -90,7 +103,7 @@ void Targets::hold(const Extent& extent) {
   for (Slot& slot : slots_) {
     if (slot.stencil) continue;
     const Size size = rowOf(slot.resource).size(extent);
-    if (size.width == slot.size.width && size.height == slot.size.height) slot.age = 0;
+    if (sameSize(size, slot.size)) slot.age = 0;
   }
 }
 
@@ -98,7 +111,7 @@ std::uint64_t Targets::bytes() const {
   std::uint64_t sum = 0;
   for (const Slot& slot : slots_)
     sum += static_cast<std::uint64_t>(slot.size.width) * static_cast<std::uint64_t>(slot.size.height) *
-           static_cast<std::uint64_t>(slot.bytesPerTexel);
+           static_cast<std::uint64_t>(std::max(slot.size.layers, 1)) * static_cast<std::uint64_t>(slot.bytesPerTexel);
   return sum;
 }
 

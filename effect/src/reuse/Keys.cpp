@@ -1,5 +1,6 @@
 #include "reuse/Keys.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <tuple>
@@ -58,9 +59,15 @@ bool same(const AvsmCurves& a, const AvsmCurves& b) {
 
 } // namespace
 
+bool sameCopies(const LightKey& a, const LightKey& b) {
+  return std::equal(a.copies.begin(), a.copies.end(), b.copies.begin(), b.copies.end(),
+                    [](const blocks::CopyBlock& p, const blocks::CopyBlock& q) { return same(p, q); });
+}
+
 bool same(const LightKey& a, const LightKey& b) {
-  return same(a.curves, b.curves) && same(a.block, b.block) && fieldsOf(a.settings) == fieldsOf(b.settings) &&
-         a.map.width == b.map.width && a.map.height == b.map.height && fieldsOf(a.variant) == fieldsOf(b.variant);
+  return same(a.curves, b.curves) && sameCopies(a, b) && same(a.block, b.block) &&
+         fieldsOf(a.settings) == fieldsOf(b.settings) && a.map.width == b.map.width && a.map.height == b.map.height &&
+         fieldsOf(a.variant) == fieldsOf(b.variant);
 }
 
 bool sameFrame(const FrameKey& a, const FrameKey& b) {

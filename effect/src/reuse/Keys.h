@@ -34,6 +34,7 @@ struct LightKey {
   FrameTextures::Shadow map;
   LightVariant variant;
   AvsmCurves curves;
+  std::vector<blocks::CopyBlock> copies = {}; ///< of the maps
 };
 
 struct FrameKey {
@@ -46,6 +47,8 @@ struct FrameKey {
 };
 
 bool same(const LightKey& a, const LightKey& b);
+/// True if maps are copied in the same way, or not.
+bool sameCopies(const LightKey& a, const LightKey& b);
 /// But for the lights' own, and for the jitter.
 bool sameFrame(const FrameKey& a, const FrameKey& b);
 

@@ -69,7 +69,7 @@ FrameKey FramePlanner::keyOf(const std::vector<DrawnLight>& drawn) const {
   for (const DrawnLight& light : drawn) {
     key.drawn.push_back(light.index);
     key.lights.push_back({light.block, light.settings, in_.textures.shadows[light.index], light.variant,
-                          frame_.lights[light.index].curves});
+                          frame_.lights[light.index].curves, light.copies});
   }
   return key;
 }

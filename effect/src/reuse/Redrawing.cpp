@@ -113,6 +113,12 @@ void planChanged(LightPlanner& light, const KeptSlices& last, const LightRedraw&
   if (redraw.comparesRows) passes::rows::planTree(light, passes::rows::Walk::Lit);
 }
 
+// True if the last frame left copies of the same maps.
+bool hasCopies(const LightPlanner& light, const LightRedraw& redraw, const KeptLight& kept) {
+  return light.frame.reuse.changes == Changes::Detect && kept.last && isStated(redraw.maps, kept.last->maps) &&
+         sameCopies(redraw.key, kept.last->key);
+}
+
 void planAll(LightPlanner& light, Redrawing& frame) {
   const auto segments = static_cast<std::uint64_t>(light.segments());
   frame.count.segments += segments;
@@ -131,6 +137,7 @@ void planSlices(LightPlanner& light, LightRedraw& redraw, Redrawing& frame) {
   light.keptTargets = &kept.targets;
   if (redraw.redraw == Redraw::Nothing && kept.last) {
     takeKept(light, *kept.last);
+    light.takeCopies(kept.last->board);
     light.extent = kept.last->extent;
     light.block = kept.last->block;
     light.viewsPerDraw = kept.last->viewsPerDraw;
@@ -138,6 +145,7 @@ void planSlices(LightPlanner& light, LightRedraw& redraw, Redrawing& frame) {
     light.plan.skip(light.name, "nothing has changed: its slices are kept");
     return;
   }
+  light.copyMaps(hasCopies(light, redraw, kept) ? &kept.last->board : nullptr);
   light.makeSlices(frame.limits);
   if (light.draws() > 1) redraw.redraw = Redraw::All; // rows are not at hand together, nor kept
   if (redraw.redraw == Redraw::All)

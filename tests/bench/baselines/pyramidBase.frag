@@ -5,7 +5,7 @@
 layout(location = 0) out vec2 outBounds;
 
 void main() {
-  ivec2 low = 2 * ivec2(gl_FragCoord.xy), high = min(low + 1, shadowMapSize - 1);
+  ivec2 low = 2 * ivec2(gl_FragCoord.xy), high = min(low + 1, shadowViews[0].size - 1);
   float a = casterDepth(low, 0), b = casterDepth(ivec2(high.x, low.y), 0);
   float c = casterDepth(ivec2(low.x, high.y), 0), d = casterDepth(high, 0);
   outBounds = vec2(min(min(a, b), min(c, d)), max(max(a, b), max(c, d)));

@@ -44,7 +44,7 @@ void leaveNode(ViewLine line, inout Walk walk, float s, int axis) {
 }
 
 Light walkedLight(Airlight light, ViewLine line, float from, float to) {
-  ivec2 last = shadowMapSize - 1;
+  ivec2 last = shadowViews[0].size - 1;
   Walk walk = Walk(clamp(ivec2(floor(line.origin.xy + from * line.slope.xy)), ivec2(0), last), top, from);
   int guard = 8 * (last.x + last.y + 2); // bounds the loops whatever the arithmetic does
   Light sum = Light(0.0);

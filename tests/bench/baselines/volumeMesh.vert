@@ -9,7 +9,7 @@ uniform mat4 clipFromCamera;
 out vec3 cameraPosition;
 
 void main() {
-  vec2 size = vec2(shadowMapSize);
+  vec2 size = vec2(shadowViews[0].size);
   float bottom = shadowViews[0].farDepth + 1.0; // one depth range behind the far plane
 #if CAP
   const ivec2 kCorners[6] = ivec2[6](ivec2(0, 0), ivec2(0, 1), ivec2(1, 0), ivec2(1, 0), ivec2(0, 1), ivec2(1, 1));
@@ -23,7 +23,7 @@ void main() {
   // The outermost vertices stand on the map's border, right above the ring.
   at = mix(at, vec2(0.0), equal(cell, ivec2(0)));
   at = mix(at, size, equal(cell, ivec2(cells - 1)));
-  float depth = casterDepth(min(ivec2((vec2(cell) + 0.5) / float(cells) * size), shadowMapSize - 1), 0);
+  float depth = casterDepth(min(ivec2((vec2(cell) + 0.5) / float(cells) * size), shadowViews[0].size - 1), 0);
   vec3 texel = vec3(at, ring ? bottom : min(depth, bottom));
 #endif
   vec4 position = cameraFromTexel * vec4(texel, 1.0);

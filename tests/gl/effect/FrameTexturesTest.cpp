@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kSize = tests::RefusalRig::kSize, kShadowSize = tests::RefusalRig::kShadowSize;
 
-enum class Use { Target, Depth, Tint };
+enum class Use { Target, Depth, Map, Tint };
 
 // A texture field of a frame and what it holds.
 struct Slot {
@@ -32,20 +32,20 @@ const std::vector<Slot> kSlots = {
     {"output.inscatter", [](Frame& f) -> std::uint32_t& { return f.output.inscatter; }, Use::Target, 0},
     {"output.transmittance", [](Frame& f) -> std::uint32_t& { return f.output.transmittance; }, Use::Target, 0},
     {"depth.texture", [](Frame& f) -> std::uint32_t& { return f.depth.texture; }, Use::Depth, 0},
-    {"lights[0].shadow.texture", [](Frame& f) -> std::uint32_t& { return f.lights[0].shadow.texture; }, Use::Depth, 2,
+    {"lights[0].shadow.texture", [](Frame& f) -> std::uint32_t& { return f.lights[0].shadow.texture; }, Use::Map, 2,
      true},
     {"lights[0].glass.colour", [](Frame& f) -> std::uint32_t& { return f.lights[0].glass.colour; }, Use::Tint, 2},
-    {"lights[0].glass.depth", [](Frame& f) -> std::uint32_t& { return f.lights[0].glass.depth; }, Use::Depth, 2},
-    {"lights[1].shadow.texture", [](Frame& f) -> std::uint32_t& { return f.lights[1].shadow.texture; }, Use::Depth, 6,
+    {"lights[0].glass.depth", [](Frame& f) -> std::uint32_t& { return f.lights[0].glass.depth; }, Use::Map, 2},
+    {"lights[1].shadow.texture", [](Frame& f) -> std::uint32_t& { return f.lights[1].shadow.texture; }, Use::Map, 6,
      true},
-    {"lights[2].shadow.texture", [](Frame& f) -> std::uint32_t& { return f.lights[2].shadow.texture; }, Use::Depth, 0,
+    {"lights[2].shadow.texture", [](Frame& f) -> std::uint32_t& { return f.lights[2].shadow.texture; }, Use::Map, 0,
      true},
     {"lights[2].glass.colour", [](Frame& f) -> std::uint32_t& { return f.lights[2].glass.colour; }, Use::Tint, 0},
-    {"lights[2].glass.depth", [](Frame& f) -> std::uint32_t& { return f.lights[2].glass.depth; }, Use::Depth, 0},
+    {"lights[2].glass.depth", [](Frame& f) -> std::uint32_t& { return f.lights[2].glass.depth; }, Use::Map, 0},
 };
 
 GLenum goodFormat(Use use) {
-  return use == Use::Target ? GL_RGBA16F : use == Use::Depth ? GL_DEPTH_COMPONENT24 : GL_RGBA8;
+  return use == Use::Target ? GL_RGBA16F : use == Use::Tint ? GL_RGBA8 : GL_DEPTH_COMPONENT24;
 }
 
 host::GlTexture make(int layers, GLenum format, int width, int height) {
@@ -64,6 +64,7 @@ void refuse(tests::RefusalRig& rig, const Slot& slot, std::uint32_t name, const 
 const char* formatRule(Use use) {
   return use == Use::Target  ? "must have a float colour format"
          : use == Use::Depth ? "must have a depth format or R32F"
+         : use == Use::Map   ? "must have a depth format, R16F, R32F or RG32F"
                              : "must have an RGB or RGBA format";
 }
 
@@ -135,9 +136,13 @@ TEST_CASE("a texture of a wrong format is refused") {
   tests::RefusalRig rig;
   const std::vector<GLenum> targets = {GL_RGBA8, GL_SRGB8_ALPHA8, GL_RGBA16, GL_R32F, GL_RG32F, GL_DEPTH_COMPONENT24};
   const std::vector<GLenum> depths = {GL_RGBA32F, GL_R16F, GL_R16, GL_RG32F, GL_RGBA8};
+  const std::vector<GLenum> maps = {GL_RGBA32F, GL_R16, GL_RG16F, GL_RGBA8};
   const std::vector<GLenum> tints = {GL_R8, GL_RG8, GL_R32F, GL_DEPTH_COMPONENT24};
   for (const Slot& slot : kSlots)
-    for (const GLenum format : slot.use == Use::Target ? targets : slot.use == Use::Depth ? depths : tints) {
+    for (const GLenum format : slot.use == Use::Target  ? targets
+                               : slot.use == Use::Depth ? depths
+                               : slot.use == Use::Map   ? maps
+                                                        : tints) {
       CAPTURE(format);
       const host::GlTexture texture = make(slot.layers, format, slot.size(), slot.size());
       refuse(rig, slot, texture.name(), formatRule(slot.use));
@@ -197,7 +202,7 @@ TEST_CASE("a texture whose swizzle changes what is read of it is refused, a tint
   const std::vector<GLint> own = {GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA};
   for (const Slot& slot : kSlots) {
     const GLenum target = slot.layers == 0 ? GL_TEXTURE_2D : GL_TEXTURE_2D_ARRAY;
-    const int read = slot.use == Use::Depth ? 1 : slot.field.rfind("output", 0) == 0 ? 3 : 0;
+    const int read = slot.use == Use::Depth || slot.use == Use::Map ? 1 : slot.field.rfind("output", 0) == 0 ? 3 : 0;
     for (int channel = 0; channel < 4; ++channel)
       for (const GLint source : {GL_ZERO, GL_ONE, GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA}) {
         if (source == own[static_cast<std::size_t>(channel)]) continue;
@@ -251,7 +256,7 @@ TEST_CASE("a depth texture that is set to give its stencil is refused") {
     return;
   }
   for (const Slot& slot : kSlots) {
-    if (slot.use != Use::Depth) continue;
+    if (slot.use != Use::Depth && slot.use != Use::Map) continue;
     const host::GlTexture texture = make(slot.layers, GL_DEPTH24_STENCIL8, slot.size(), slot.size());
     const GLenum target = slot.layers == 0 ? GL_TEXTURE_2D : GL_TEXTURE_2D_ARRAY;
     gl().TexParameteri(target, GL_DEPTH_STENCIL_TEXTURE_MODE, GL_STENCIL_INDEX);
@@ -310,8 +315,12 @@ TEST_CASE("every format that the header names is accepted") {
   };
   for (const GLenum format : targets)
     acceptInAll(Use::Target, format);
-  for (const GLenum format : depths)
+  for (const GLenum format : depths) {
     acceptInAll(Use::Depth, format);
+    acceptInAll(Use::Map, format);
+  }
+  for (const GLenum format : {GL_R16F, GL_RG32F})
+    acceptInAll(Use::Map, format);
   for (const GLenum format : tints)
     acceptInAll(Use::Tint, format);
 }

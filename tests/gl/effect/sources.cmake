@@ -31,6 +31,10 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/ReuseFrameTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ReuseMeshTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ReuseTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/MapEncodingTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/MapLayoutRig.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/MapLayoutTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/MapRefusalTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MemoryTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/NonFiniteTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EngineErrorTest.cpp

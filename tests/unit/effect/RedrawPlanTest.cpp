@@ -32,7 +32,7 @@ struct Stage {
     key.drawn = {0, 1};
     key.lights.resize(2);
     eye.makeRoomFor(2);
-    eye.last = KeptPicture{key, depthOf(frame), frame.reuse.frame, true};
+    eye.last = KeptPicture{key, depthOf(frame), frame.reuse.frame, true, frame.camera};
     for (std::size_t i = 0; i < 2; ++i) {
       eye.lights[i]->last = KeptSlices{};
       eye.lights[i]->last->maps = mapsOf(frame.lights[i]);

@@ -34,7 +34,7 @@ void keepPositive(float c, float d, inout float s0, inout float s1) {
 // Keeps the part of [s0, s1] inside a view's side planes.
 void clipToSides(ViewLine line, inout float s0, inout float s1) {
   vec4 a = line.origin, b = line.slope;
-  vec2 size = vec2(shadowMapSize);
+  vec2 size = vec2(shadowViews[0].size);
   keepPositive(a.x, b.x, s0, s1);
   keepPositive(a.y, b.y, s0, s1);
   keepPositive(size.x * a.w - a.x, size.x * b.w - b.x, s0, s1);
@@ -42,7 +42,7 @@ void clipToSides(ViewLine line, inout float s0, inout float s1) {
 }
 
 Visibility texelVisibility(int view, vec3 p) {
-  ivec2 texel = clamp(ivec2(p.xy), ivec2(0), shadowMapSize - 1);
+  ivec2 texel = clamp(ivec2(p.xy), ivec2(0), shadowViews[0].size - 1);
   Visibility visibility = Visibility(p.z <= casterDepth(texel, view) ? 1.0 : 0.0);
 #if GLASS
   visibility *= p.z > paneDepth(texel, view) ? paneTint(texel, view) : vec3(1.0);
@@ -65,7 +65,7 @@ Visibility visibilityAt(ViewLine line, Ray ray, float s) {
   for (int view = 0; view < viewCount; ++view) {
     vec4 h = shadowViews[view].texelFromCamera * position;
     vec3 p = h.xyz / h.w;
-    bool inSides = h.w > 0.0 && all(greaterThanEqual(p.xy, vec2(0.0))) && all(lessThan(p.xy, vec2(shadowMapSize)));
+    bool inSides = h.w > 0.0 && all(greaterThanEqual(p.xy, vec2(0.0))) && all(lessThan(p.xy, vec2(shadowViews[0].size)));
     if (!inSides || (shadowViews[view].isOpen == 0 && p.z > shadowViews[view].farDepth)) continue;
     if (p.z >= shadowViews[view].nearDepth) return texelVisibility(view, p);
     outside = Visibility(1.0);
