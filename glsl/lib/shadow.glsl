@@ -101,7 +101,7 @@ struct Walk {
 
 // The cell at a place of a view, from the one before the first centre on if they are between centres.
 ivec2 cellAt(vec2 place, int view) {
-  return clamp(ivec2(floor(place)), ivec2(FILTER_BILINEAR == 1 ? -1 : 0), shadowViews[view].size - 1) + shadowViews[view].origin;
+  return clamp(ivec2(floor(place)), ivec2(FILTER_BILINEAR == 1 ? -1 : 0), shadowViews[view].size - 1) + firstTexel(view);
 }
 
 void startWalk(ViewSegment segment, out Line line, out Walk walk) {
@@ -124,7 +124,7 @@ void startWalk(ViewSegment segment, out Line line, out Walk walk) {
   walk.depth = line.origin.z;
   // Along an axis that the line does not move in the next grid line lies at u = 2, which is never reached.
   bvec2 moves = notEqual(extent, ivec2(0));
-  ivec2 cell = walk.cell - shadowViews[segment.view].origin;
+  ivec2 cell = walk.cell - firstTexel(segment.view);
   walk.ahead = vec2(cell + ivec2(greaterThanEqual(line.slope.xy, vec2(0.0)))) - line.origin.xy;
   walk.ahead = mix(vec2(2.0), walk.ahead, moves);
   line.inverse = mix(vec2(1.0), 1.0 / line.slope.xy, moves);
@@ -151,7 +151,7 @@ void stepCell(Line line, inout Walk walk, float u, float depth) {
 
 // On to a later place on the line.
 void enterCell(Line line, int view, inout Walk walk, float u) {
-  ivec2 cell = ivec2(floor(line.origin.xy + line.slope.xy * u)) + shadowViews[view].origin;
+  ivec2 cell = ivec2(floor(line.origin.xy + line.slope.xy * u)) + firstTexel(view);
   cell = clamp(cell, min(walk.cell, line.last), max(walk.cell, line.last));
   walk.ahead += vec2(cell - walk.cell);
   walk.cell = cell;
@@ -207,7 +207,7 @@ Visibility pieceVisibility(Line line, ivec2 cell, int view, float u, inout float
   bvec4 lit = greaterThanEqual(depth, receiver);
   // The weights are quadratic along the line: two Gauss nodes give their mean exactly.
   float middle = 0.5 * (u + uEnd), node = 0.5773502691896257 * 0.5 * (uEnd - u);
-  ivec2 own = cell - shadowViews[view].origin;
+  ivec2 own = cell - firstTexel(view);
   vec4 weights = 0.5 * (cornerWeights(line, own, middle - node) + cornerWeights(line, own, middle + node));
   vec4 litWeights = mix(vec4(0.0), weights, lit);
 #if GLASS

@@ -39,19 +39,25 @@ vec3 paneTint(ivec2 texel, int view) {
 }
 #endif
 
-// The view's last texel.
-ivec2 lastTexel(int view) { return shadowViews[view].origin + shadowViews[view].size - 1; }
+// The view's first texel, and its last. Filtered glass, which takes most registers, has views that begin at the layer's first: else the
+// light's maps are copied (plan/MapCopies.cpp).
+#if FILTER_BILINEAR && GLASS
+ivec2 firstTexel(int view) { return ivec2(0); }
+#else
+ivec2 firstTexel(int view) { return shadowViews[view].origin; }
+#endif
+ivec2 lastTexel(int view) { return firstTexel(view) + shadowViews[view].size - 1; }
 
 // The four texels around a cell (bilinear), clamped to the view's edge: low x low y, high x low y, low x high y, both high.
 vec4 cornerDepths(ivec2 cell, int view) {
-  ivec2 low = max(cell, shadowViews[view].origin), high = min(cell + 1, lastTexel(view));
+  ivec2 low = max(cell, firstTexel(view)), high = min(cell + 1, lastTexel(view));
   return vec4(casterDepth(low, view), casterDepth(ivec2(high.x, low.y), view), casterDepth(ivec2(low.x, high.y), view),
               casterDepth(high, view));
 }
 
 #if GLASS
 vec4 cornerPanes(ivec2 cell, int view) {
-  ivec2 low = max(cell, shadowViews[view].origin), high = min(cell + 1, lastTexel(view));
+  ivec2 low = max(cell, firstTexel(view)), high = min(cell + 1, lastTexel(view));
   return vec4(paneDepth(low, view), paneDepth(ivec2(high.x, low.y), view), paneDepth(ivec2(low.x, high.y), view),
               paneDepth(high, view));
 }
@@ -59,10 +65,10 @@ vec4 cornerPanes(ivec2 cell, int view) {
 // The same where clear glass is no glass.
 float tintedDepth(ivec2 texel, int view) { return paneTint(texel, view) == vec3(1.0) ? 3e38 : paneDepth(texel, view); }
 vec4 cornersTinted(ivec2 cell, int view) {
-  ivec2 low = max(cell, shadowViews[view].origin), high = min(cell + 1, lastTexel(view));
+  ivec2 low = max(cell, firstTexel(view)), high = min(cell + 1, lastTexel(view));
   return vec4(tintedDepth(low, view), tintedDepth(ivec2(high.x, low.y), view), tintedDepth(ivec2(low.x, high.y), view),
               tintedDepth(high, view));
 }
 
-vec3 cornerTint(ivec2 cell, int i, int view) { return paneTint(clamp(cell + ivec2(i & 1, i >> 1), shadowViews[view].origin, lastTexel(view)), view); }
+vec3 cornerTint(ivec2 cell, int i, int view) { return paneTint(clamp(cell + ivec2(i & 1, i >> 1), firstTexel(view), lastTexel(view)), view); }
 #endif

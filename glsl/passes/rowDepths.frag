@@ -29,7 +29,7 @@ struct Point {
 ivec2 cornerOf(Point point, int i) { return ivec2(i % 2 == 0 ? point.corners.x : point.corners.z, i < 2 ? point.corners.y : point.corners.w); }
 
 Point pointAt(vec2 p, int view) {
-  ivec2 last = shadowViews[view].size - 1, origin = shadowViews[view].origin;
+  ivec2 last = shadowViews[view].size - 1, origin = firstTexel(view);
   Point point;
 #if FILTER_BILINEAR
   ivec2 cell = clamp(ivec2(floor(p - 0.5)), ivec2(-1), last), low = max(cell, ivec2(0)), high = min(cell + 1, last);
@@ -152,7 +152,7 @@ void main() {
 void main() {
   int first = 4 * int(gl_FragCoord.x), view = viewOfRow(int(gl_FragCoord.y));
   vec4 row = rowLine(view, sliceOfRow(int(gl_FragCoord.y)));
-  ivec2 last = shadowViews[view].size - 1, origin = shadowViews[view].origin;
+  ivec2 last = shadowViews[view].size - 1, origin = firstTexel(view);
   for (int k = 0; k < 4; ++k) {
     vec2 p = row.xy + row.zw * (float(first + k) + 0.5);
     outDepths[k] = coded(casterDepth(clamp(ivec2(floor(p)), ivec2(0), last) + origin, view));

@@ -18,7 +18,7 @@ layout(location = 2) out vec4 outBlue;
 
 // The tint of a row's texel behind all panes around it.
 vec3 tintAt(vec2 p, int view) {
-  ivec2 last = shadowViews[view].size - 1, origin = shadowViews[view].origin;
+  ivec2 last = shadowViews[view].size - 1, origin = firstTexel(view);
 #if FILTER_BILINEAR
   ivec2 cell = clamp(ivec2(floor(p - 0.5)), ivec2(-1), last), low = max(cell, ivec2(0)), high = min(cell + 1, last);
   vec2 f = clamp(p - 0.5 - vec2(cell), 0.0, 1.0);

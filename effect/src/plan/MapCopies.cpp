@@ -20,9 +20,18 @@ bool isSeldomAtlas(const Settings& settings, const Light& light) {
   return kinds > 1 || spreads || (looksUp && (filters || glass));
 }
 
+// Programs for filtered glass know of no rectangle that begins elsewhere than a layer (glsl/lib/shadowMap.glsl).
+bool isSeldomRectangle(const Settings& settings, const Light& light) {
+  const std::vector<ShadowView>& views = light.shadow.views;
+  return settings.shadowFilter == ShadowFilter::Bilinear && light.glass.colour != 0 &&
+         std::any_of(views.begin(), views.end(),
+                     [](const ShadowView& view) { return view.rectangle.x != 0 || view.rectangle.y != 0; });
+}
+
 bool isCopied(const Settings& settings, const Light& light) {
   const ShadowMap& map = light.shadow;
-  return map.cube.enabled || map.encoding != DepthEncoding::Window || isSeldomAtlas(settings, light);
+  return map.cube.enabled || map.encoding != DepthEncoding::Window || isSeldomAtlas(settings, light) ||
+         isSeldomRectangle(settings, light);
 }
 
 int sourceOf(const ShadowMap& map) { return (map.cube.enabled ? 2 : 0) + (map.array ? 1 : 0); }

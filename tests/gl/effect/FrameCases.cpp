@@ -86,6 +86,21 @@ void addInputs(std::vector<FrameCase>& all) {
   }
 }
 
+void addLayouts(std::vector<FrameCase>& all) {
+  const auto add = [&all](FrameCase item, Layout layout) {
+    item.layout = layout;
+    all.push_back(std::move(item));
+  };
+  FrameCase glass = make("epipolar, cube and glass", Technique::Epipolar, kColour, {kLamp});
+  glass.glass = true;
+  add(glass, Layout::Cube);
+  add(make("exact, cube of an array", Technique::Exact, kColour, {kLamp}), Layout::CubeArray);
+  add(make("tree, lamp's atlas", Technique::Tree, kColour, {kLamp}), Layout::Atlas);
+  FrameCase copied = make("epipolar, lamp's atlas, bilinear and glass", Technique::Epipolar, kColour, {kLamp});
+  copied.bilinear = copied.glass = true;
+  add(copied, Layout::Atlas);
+}
+
 void addViews(std::vector<FrameCase>& all) {
   for (int view = 1; view < static_cast<int>(DebugView::Redrawn); ++view) {
     FrameCase item = make("view " + std::to_string(view), Technique::Epipolar);
@@ -139,6 +154,9 @@ void addReuse(std::vector<FrameCase>& all) {
   all.push_back(reusing("detect, lamp in parts", Changes::Detect, 1, Motion::Box));
   all.back().lights = {kLamp};
   all.back().maxTextureSize = 64;
+  all.push_back(reusing("detect, cube and spot", Changes::Detect, 1, Motion::Box));
+  all.back().lights = {kLamp, kSpot};
+  all.back().layout = Layout::Cube;
   all.push_back(reusing("tree, detect", Changes::Detect, 1, Motion::Box));
   all.back().technique = Technique::Tree;
   all.push_back(reusing("exact, objects", Changes::Objects, 1, Motion::Box));
@@ -221,6 +239,7 @@ const std::vector<FrameCase>& frameCases() {
     std::vector<FrameCase> list;
     addTechniques(list);
     addInputs(list);
+    addLayouts(list);
     addViews(list);
     addReuse(list);
     addTunings(list);
@@ -240,14 +259,19 @@ Config configFor(const FrameCase& frameCase, GlLoader loader, PassTiming timing)
   return {loader, timing, {}, StateMode::Restore, frameCase.tuning};
 }
 
-bool canDraw(const FrameCase& frameCase) { return !frameCase.curves || testContext().glVersion() >= 43; }
+bool canDraw(const FrameCase& frameCase) {
+  const int needed = frameCase.curves ? 43 : frameCase.layout == Layout::CubeArray ? 40 : 33;
+  return testContext().glVersion() >= needed;
+}
 
 Stage::Stage(const FrameCase& frameCase, int width, int height)
     : case_(frameCase), width_(width), height_(height), rig_(width, height),
       values_(4 * static_cast<std::size_t>(width * height), kBefore) {
   Frame& frame = rig_.scene.frame;
   for (const LightKind kind : case_.lights) {
-    rig_.addLight(lightOf(kind), kMapSize, case_.glass);
+    Light light = lightOf(kind);
+    if (case_.layout && kind == kLamp) light.shadow.views = faceViews(light);
+    rig_.addLight(light, kMapSize, case_.glass);
     if (case_.curves) frame.lights.back().curves = veil();
     if (case_.bright) frame.lights.back().colour = {3e6F, 2e6F, 1e6F};
   }
@@ -275,18 +299,28 @@ Stage::Stage(const FrameCase& frameCase, int width, int height)
   frame.reuse.changes = case_.changes;
   frame.reuse.refreshFrames = case_.refreshFrames;
   frame.reuse.fullShare = 1;
+  plain_ = frame.lights.front();
   rewind();
 }
 
 void Stage::show(int number) {
   Frame& frame = rig_.scene.frame;
+  if (case_.layout) frame.lights.front() = plain_;
   if (case_.motion != Motion::None) rig_.setMoving({reuse::tumbling(number)});
+  if (case_.layout) layMaps();
   frame.objects.clear();
   if (case_.changes != Changes::Objects || case_.motion == Motion::None) return;
   if (case_.motion == Motion::Box)
     frame.objects = {reuse::between(reuse::tumbling(std::max(number - 1, 0)), reuse::tumbling(number))};
   else
     frame.objects = {reshape(number)};
+}
+
+void Stage::layMaps() {
+  Light& light = rig_.scene.frame.lights.front();
+  plain_ = light;
+  laid_.emplace(rig_.scene.shadow(0), *case_.layout, 0.0F);
+  laid_->enter(light);
 }
 
 // A mesh in world coordinates, whose vertices move.

@@ -1,9 +1,10 @@
 // Frames of every kind that the effect draws in another way, small: for tests that run many of each.
 #pragma once
 
-#include "ShaftRig.h"
+#include "MapLayoutRig.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,7 @@ struct FrameCase {
   int before = 0; ///< frames of the view that were drawn before the one that is looked at
   int refreshFrames = 0;
   tyndall::Tuning tuning = {};
+  std::optional<Layout> layout = {}; ///< of the first light's maps; none: an array
   int maxTextureSize = 0; ///< of a FaultyContext: so little that a lamp's faces are marched one after the other
 };
 
@@ -44,7 +46,7 @@ const FrameCase& frameCase(std::string_view name);
 tyndall::Config configFor(const FrameCase& frameCase, tyndall::GlLoader loader,
                           tyndall::PassTiming timing = tyndall::PassTiming::Off);
 
-/// True if the context can draw it: curves need OpenGL 4.3.
+/// True if the context can draw it: curves need OpenGL 4.3, arrays of cube maps 4.0.
 bool canDraw(const FrameCase& frameCase);
 
 /// Colour, inscatter and transmittance, as they are, wanted or not.
@@ -77,6 +79,7 @@ public:
 
 private:
   void show(int number);
+  void layMaps();
   tyndall::MovingObject reshape(int number);
 
   FrameCase case_;
@@ -84,6 +87,8 @@ private:
   ShaftRig rig_;
   std::vector<float> values_; ///< of a target that nothing was drawn into
   int number_ = 0;
+  tyndall::Light plain_; ///< the first light, with its maps in an array
+  std::optional<LaidMaps> laid_;
   host::GlTexture colour_, inscatter_, transmittance_;
   host::GlBuffer vertices_;
 };

@@ -165,6 +165,8 @@ GlState captureGlState() {
          {GL_TEXTURE_BINDING_2D, GL_TEXTURE_BINDING_2D_ARRAY, GL_TEXTURE_BINDING_2D_MULTISAMPLE,
           GL_TEXTURE_BINDING_CUBE_MAP, GL_TEXTURE_BINDING_3D, GL_TEXTURE_BINDING_BUFFER, GL_SAMPLER_BINDING})
       addIntegers(state, "unit " + std::to_string(unit) + " " + std::to_string(query), query);
+    if (testContext().glVersion() >= 40)
+      addIntegers(state, "unit " + std::to_string(unit) + " cube array", GL_TEXTURE_BINDING_CUBE_MAP_ARRAY);
   }
   gl().ActiveTexture(static_cast<GLenum>(active));
   for (int i = 0; i < 8; ++i)

@@ -5,6 +5,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/CascadeTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/CompositeTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ConventionTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/CubeDrawTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/DriverFailureTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/DriverTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EffectContextTest.cpp
@@ -31,6 +32,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/ReuseFrameTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ReuseMeshTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ReuseTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/MapCopyTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MapEncodingTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MapLayoutRig.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MapLayoutTest.cpp

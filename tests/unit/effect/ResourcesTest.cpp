@@ -49,6 +49,7 @@ Extent randomExtent(std::mt19937& random) {
   e.rowRoom = e.slices * views;
   e.rows = e.slices * within(1, views);
   e.curveCells = within(1, 512);
+  e.mapCopy = {within(1, 4096), within(1, 4096), views};
   e.terms = within(1, 8);
   e.lowRankSets = within(1, 2) == 1 ? 1 : e.slices;
   e.tintLevel = within(0, 2);
