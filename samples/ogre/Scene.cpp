@@ -96,14 +96,14 @@ void Scene::addHall() {
 void Scene::addLights() {
   Ogre::Light* sun = manager_->createLight();
   sun->setType(Ogre::Light::LT_DIRECTIONAL);
-  sun->setDiffuseColour(9, 8, 6);
+  sun->setDiffuseColour(26, 21, 15);
   Ogre::SceneNode* sunNode = manager_->getRootSceneNode()->createChildSceneNode();
   sunNode->setDirection(Ogre::Vector3(0.35F, -1, 0.45F), Ogre::Node::TS_WORLD);
   sunNode->attachObject(sun);
 
   Ogre::Light* lamp = manager_->createLight();
   lamp->setType(Ogre::Light::LT_SPOTLIGHT);
-  lamp->setDiffuseColour(60, 90, 160);
+  lamp->setDiffuseColour(100, 150, 260);
   lamp->setSpotlightRange(Ogre::Degree(40), Ogre::Degree(50));
   lamp->setSpotlightNearClipDistance(0.2F);
   lamp->setAttenuation(30, 0, 0, 1);

@@ -1,14 +1,18 @@
-// A window of OGRE's with shafts: its scene, its shadow maps, its compositor, and Tyndall as a pass of that. F switches
-// the shafts off and on, the arrows turn the camera, Escape ends.
+// A window of OGRE's with shafts: its scene, its shadow maps, its compositor, and Tyndall as a pass of that. While
+// Space is down there are none; the arrows turn the first camera; Escape ends.
 #include "Recorder.h"
 #include "Scene.h"
 #include "TyndallPass.h"
 
 #define GLFW_INCLUDE_NONE
 #include <CLI/CLI.hpp>
+#include <GL/glx.h>
 #include <GLFW/glfw3.h>
 #include <chrono>
 #include <iostream>
+
+/// Of <GLFW/glfw3native.h>, which wants headers of Xrandr.
+extern "C" Window glfwGetX11Window(GLFWwindow* window);
 
 namespace {
 
@@ -35,50 +39,63 @@ void describe(CLI::App& app, Options& options) {
   app.add_option("--picture", options.picture, "PNG file for the last frame");
 }
 
-/// GLFW's window, its context, and OGRE's view of both.
-class Window {
+/// GLFW's window, in which OGRE's is: resizes and keys are GLFW's, the context is OGRE's.
+class OuterWindow {
 public:
-  explicit Window(const Options& options) {
+  explicit OuterWindow(const Options& options) {
 #ifdef GLFW_PLATFORM
     glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11); // OGRE's contexts are GLX's
 #endif
     if (!glfwInit()) throw std::runtime_error("GLFW does not start: is there an X server?");
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     window_ = glfwCreateWindow(options.width, options.height, "Tyndall in OGRE", nullptr, nullptr);
-    if (!window_) throw std::runtime_error("no window with OpenGL 4.3");
+    if (!window_) throw std::runtime_error("GLFW has no window for us");
     glfwSetInputMode(window_, GLFW_STICKY_KEYS, GLFW_TRUE);
-    glfwMakeContextCurrent(window_);
   }
-  ~Window() { glfwTerminate(); }
-  Window(const Window&) = delete;
-  Window& operator=(const Window&) = delete;
+  ~OuterWindow() { glfwTerminate(); }
+  OuterWindow(const OuterWindow&) = delete;
+  OuterWindow& operator=(const OuterWindow&) = delete;
 
-  GLFWwindow* glfw() { return window_; }
   bool pressed(int key) { return glfwGetKey(window_, key) == GLFW_PRESS; }
+  bool closed() { return glfwWindowShouldClose(window_) || pressed(GLFW_KEY_ESCAPE); }
+  std::string handle() { return std::to_string(glfwGetX11Window(window_)); }
+  void resize(Ogre::RenderWindow& inner) {
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window_, &width, &height);
+    inner.resize(static_cast<unsigned>(width), static_cast<unsigned>(height));
+    inner.windowMovedOrResized();
+  }
 
 private:
   GLFWwindow* window_ = nullptr;
 };
 
-Ogre::RenderWindow* openOgre(Ogre::Root& root, const Options& options) {
+Ogre::RenderWindow* openOgre(Ogre::Root& root, const Options& options, const std::string& parent) {
   for (const char* plugin : {"RenderSystem_GL3Plus", "Codec_STBI"})
     root.loadPlugin(std::string(TYNDALL_OGRE_PLUGINS "/") + plugin);
   root.setRenderSystem(root.getAvailableRenderers().front());
   root.initialise(false);
-  const Ogre::NameValuePairList ofGlfw = {{"currentGLContext", "true"}, {"externalGLControl", "true"}};
+  const Ogre::NameValuePairList inside = {{"parentWindowHandle", parent}};
   Ogre::RenderWindow* window = root.createRenderWindow("window", static_cast<unsigned>(options.width),
-                                                       static_cast<unsigned>(options.height), false, &ofGlfw);
+                                                       static_cast<unsigned>(options.height), false, &inside);
   Ogre::ResourceGroupManager& resources = Ogre::ResourceGroupManager::getSingleton();
   resources.addResourceLocation(TYNDALL_OGRE_OWN_MEDIA "/ShadowVolume", "FileSystem"); // which all its shadows ask for
   resources.addResourceLocation(TYNDALL_OGRE_MEDIA, "FileSystem");
   return window;
 }
 
+/// Calls before the picture is shown, when it can be read.
+struct BeforeShown final : Ogre::FrameListener {
+  std::function<void()> call;
+  bool frameRenderingQueued(const Ogre::FrameEvent& /*event*/) override {
+    call();
+    return true;
+  }
+};
+
 tyndall::Medium haze() {
   tyndall::Medium medium;
-  medium.constituents = {{{0.016F, 0.016F, 0.016F}, tyndall::Phase::HenyeyGreenstein, 0.5F}};
+  medium.constituents = {{{0.018F, 0.018F, 0.018F}, tyndall::Phase::HenyeyGreenstein, 0.5F}};
   medium.farDistance = 40;
   return medium;
 }
@@ -96,16 +113,25 @@ std::vector<Ogre::CompositorInstance*> addViewports(Ogre::RenderWindow& window, 
   return compositors;
 }
 
-void run(const Options& options) {
-  Window glfw(options);
-  Ogre::LogManager log;
-  log.createLog("", true, false, true)->setLogDetail(Ogre::LL_LOW);
-  Ogre::Root root("", "", "");
-  Ogre::RenderWindow* window = openOgre(root, options);
+/// By what arrows are down.
+void turn(Ogre::Camera& camera, OuterWindow& keys) {
+  const int left = keys.pressed(GLFW_KEY_LEFT) - keys.pressed(GLFW_KEY_RIGHT);
+  const int up = keys.pressed(GLFW_KEY_UP) - keys.pressed(GLFW_KEY_DOWN);
+  if (left != 0) camera.getParentSceneNode()->yaw(Ogre::Degree(2 * static_cast<float>(left)), Ogre::Node::TS_WORLD);
+  if (up != 0) camera.getParentSceneNode()->pitch(Ogre::Degree(2 * static_cast<float>(up)));
+}
 
-  TyndallPass tyndallPass([](const char* name) { return reinterpret_cast<void*>(glfwGetProcAddress(name)); });
+void run(const Options& options) {
+  OuterWindow outer(options);
+  Ogre::LogManager log;
+  log.createLog("", true, true, true)->setLogDetail(Ogre::LL_LOW);
+  Ogre::Root root("", "", "");
+  Ogre::RenderWindow* window = openOgre(root, options, outer.handle());
+
+  TyndallPass tyndallPass([](const char* name) {
+    return reinterpret_cast<void*>(glXGetProcAddressARB(reinterpret_cast<const GLubyte*>(name)));
+  });
   tyndallPass.medium = haze();
-  tyndallPass.enabled = options.mode != "off";
   tyndallPass.reuse = !options.noReuse;
   Recorder recorder(options.digests, options.inscatter);
   tyndallPass.adjust = [&](tyndall::Frame& frame) { recorder.wantOutputs(frame, options.mode == "shafts"); };
@@ -114,21 +140,26 @@ void run(const Options& options) {
 
   Scene scene(root);
   const std::vector<Ogre::CompositorInstance*> compositors = addViewports(*window, scene, options.viewports);
-  const auto start = std::chrono::steady_clock::now();
-  for (int frame = 0; options.frames == 0 || frame < options.frames; ++frame) {
-    glfwPollEvents();
-    if (glfwWindowShouldClose(glfw.glfw()) || glfw.pressed(GLFW_KEY_ESCAPE)) break;
-    int width = 0, height = 0;
-    glfwGetFramebufferSize(glfw.glfw(), &width, &height);
-    window->resize(static_cast<unsigned>(width), static_cast<unsigned>(height));
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-    scene.moveTo(options.frames > 0 ? frame / 30.0 : passed.count());
-    const bool last = frame + 1 == options.frames;
-    if (last && options.exact) tyndallPass.settings.technique = tyndall::Technique::Exact;
-    root.renderOneFrame();
+  bool last = false;
+  BeforeShown recording;
+  recording.call = [&] {
     recorder.digest(*window, compositors);
     if (last && !options.picture.empty()) window->writeContentsToFile(options.picture);
-    glfwSwapBuffers(glfw.glfw());
+  };
+  root.addFrameListener(&recording);
+
+  const auto start = std::chrono::steady_clock::now();
+  for (int frame = 0; !last; ++frame) {
+    glfwPollEvents();
+    if (outer.closed()) break;
+    last = frame + 1 == options.frames;
+    outer.resize(*window);
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+    scene.moveTo(options.frames > 0 ? frame / 30.0 : passed.count());
+    turn(*window->getViewport(0)->getCamera(), outer);
+    tyndallPass.enabled = options.mode != "off" && !outer.pressed(GLFW_KEY_SPACE);
+    if (last && options.exact) tyndallPass.settings.technique = tyndall::Technique::Exact;
+    root.renderOneFrame();
   }
   recorder.writeInscatter();
   if (tyndallPass.enabled)

@@ -24,5 +24,5 @@ void main() {
   if (cone > 0) {
     light += lit(shadow3, places[3]) * cone * cone * max(dot(normal, toSpot), 0) * inversesqrt(distance2) / distance2 * spotColour.rgb;
   }
-  colour = vec4(albedo.rgb * (light / 3.14159 + 0.06), 1);
+  colour = vec4(albedo.rgb * (light / 3.14159 + 0.03), 1);
 }
