@@ -42,6 +42,7 @@ void settleExtensions(gl::Functions& gl) {
   gl::Int profile = 0;
   gl.GetIntegerv(gl::CONTEXT_PROFILE_MASK, &profile);
   gl.compatibility = (static_cast<gl::Bitfield>(profile) & gl::CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0;
+  if (gl.compatibility) gl.GetTextureParameteriv = nullptr; // Mesa tells a texture's target in the core profile only
 }
 
 } // namespace
