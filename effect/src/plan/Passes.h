@@ -58,6 +58,7 @@ enum class Pass {
   ChangedSlices,
   ChangedTiles,
   ChangedPixels,
+  CheckInputs,
   // Debug views.
   DebugSlices,
   DebugSamples,
@@ -69,6 +70,7 @@ enum class Pass {
   DebugImage,
   DebugVisits,
   DebugDifference,
+  DebugInputs,
   Count
 };
 

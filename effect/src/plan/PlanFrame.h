@@ -31,6 +31,8 @@ struct PlannedFrame {
   std::optional<KeptNext> next;
   gl::Uint empty = 0;  ///< what a sampler reads that has nothing to read
   gl::Uint visits = 0; ///< DebugView::NodeVisits: a texture that holds their mean
+  gl::Uint checks = 0; ///< Resource::InputChecks, of the lights whose bit is set:
+  std::uint32_t checkedLights = 0;
 };
 
 class FramePlanner {
@@ -39,6 +41,9 @@ public:
 
   /// Every step of the frame; what could not be made is the allocator's status.
   void plan();
+
+  /// Compares scene depth and shadow maps (Config::checkInputs), into PlannedFrame::checks.
+  void planCheck();
 
   /// The same for what may be kept of the last frame and is drawn anew: to compile ahead for it.
   void planRedrawn(bool comparesEnds, bool comparesRows);
@@ -66,6 +71,8 @@ private:
   void planComposite();
   void planDifference();
   void planMean(gl::Uint image);
+  LightPlanner mapOf(std::size_t light);
+  void planInputs();
   void showRedrawn(Redraw picture, const Mask& mask);
   void copyToOutput(gl::Uint from, gl::Uint output);
 

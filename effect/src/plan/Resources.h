@@ -67,6 +67,7 @@ enum class Resource {
   MovedSlices,
   ChangedTiles,
   LastDepth,
+  InputChecks,
   DebugView,
   DebugExact,
   DebugRowMeans,
