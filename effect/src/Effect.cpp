@@ -44,7 +44,8 @@ Status Effect::State::render(const Frame& given) {
   return status;
 }
 
-// What earlier frames' pixels said. Of a frame that is refused for that only the check is drawn: until it finds nothing.
+// What earlier frames' pixels said. Of a frame that is refused for that only the check is drawn: until it finds
+// nothing.
 Status Effect::State::takeChecks(const Frame& frame, const FrameTextures& textures, gl::StateGuard& guard) {
   if (!checksInputs) return {};
   inputChecks.receive();
@@ -77,8 +78,8 @@ void Effect::State::beginStatistics() {
   lastEye.reset();
 }
 
-Status Effect::State::planFrame(const Frame& frame, const FrameTextures& textures, KeptEye* eye,
-                                PlannedFrame& planned, Draws what) {
+Status Effect::State::planFrame(const Frame& frame, const FrameTextures& textures, KeptEye* eye, PlannedFrame& planned,
+                                Draws what) {
   framebuffers.beginFrame();
   Allocator allocator(framebuffers, true);
   const PlanInputs inputs{frame, textures, limits, tuning, targets, eye, recorder.counts(), &paces};

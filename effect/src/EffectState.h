@@ -22,9 +22,9 @@ enum class Draws { All, CheckOnly };
 
 struct Effect::State {
   explicit State(const Config& config)
-      : stateMode(config.state), checksInputs(config.checkInputs), warningsAreErrors(config.warningsAreErrors), tuning(config.tuning), watch(gl),
-        programs(gl, config.programs), framebuffers(gl), targets(gl, framebuffers), recorder(gl, config.timing),
-        paces(gl), eyes(gl, framebuffers), objectBoxes(gl), inputChecks(gl), blocks(gl) {}
+      : stateMode(config.state), checksInputs(config.checkInputs), warningsAreErrors(config.warningsAreErrors),
+        tuning(config.tuning), watch(gl), programs(gl, config.programs), framebuffers(gl), targets(gl, framebuffers),
+        recorder(gl, config.timing), paces(gl), eyes(gl, framebuffers), objectBoxes(gl), inputChecks(gl), blocks(gl) {}
 
   StateMode stateMode;
   bool checksInputs, warningsAreErrors;

@@ -15,13 +15,24 @@ namespace tyndall {
 /// Points of a grid, by what they found.
 struct InputCounts {
   int nothing = 0, agree = 0, hidden = 0, missing = 0, empty = 0, outside = 0;
+  int special = 0, atNear = 0; ///< of these (lib/inputs.glsl)
+
+  int compared() const { return agree + hidden + missing + empty; }
+  int impossible() const { return missing + empty; }
 };
 
 /// Of a light and its map.
 struct LightChecks {
   std::size_t light = 0;
+  bool isSun = false;   ///< whose light is everywhere
+  bool isHazy = false;  ///< with Light::curves: what the camera shows may be in them, not in the map
   InputCounts surfaces; ///< of the camera's picture, looked up in the map
   InputCounts casters;  ///< of the map, looked up in the camera's picture
+};
+
+/// Which lights have a map to be compared, and which of them are suns or have curves: a bit each.
+struct CheckedLights {
+  std::uint32_t all = 0, suns = 0, hazy = 0;
 };
 
 /// Lines as Statistics::warnings has them; none for inputs that can show one scene.
@@ -37,9 +48,9 @@ public:
   /// Has room for what a frame asks for.
   Status reserve(StateMode state);
 
-  /// Has the texture (Resource::InputChecks) copied, of the lights whose bit is set, unless the GPU is behind. Binds to
+  /// Has the texture (Resource::InputChecks) copied, of these lights, unless the GPU is behind. Binds to
   /// texture unit 0, and activates it.
-  void ask(gl::Uint texture, std::uint32_t lights, StateMode state);
+  void ask(gl::Uint texture, CheckedLights lights, StateMode state);
 
   /// Looks at what has come. Binds to the uniform target.
   void receive();
@@ -54,7 +65,7 @@ private:
   struct Batch {
     gl::Buffer buffer; // null until it is first needed
     gl::Sync sync = nullptr;
-    std::uint32_t lights = 0;
+    CheckedLights lights;
     std::uint64_t number = 0;
   };
   Batch* freeBatch();

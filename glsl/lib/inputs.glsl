@@ -7,6 +7,9 @@ const int kHidden = 2;   // the other shows one before it
 const int kMissing = 3;  // the other shows one far behind it, though this one would be before that
 const int kEmpty = 4;    // the other shows none
 const int kOutside = 5;  // the other does not look there
+const int kSpecial = 8;  // added: of a surface that it lies where all do if the matrix is one for texture coordinates; of a caster that
+                         // the camera shows something at less than a quarter of the distance
+const int kAtNear = 16;  // added: the surface is at the camera's near plane
 
 const float kSameDistance = 0.02, kSameTexels = 3.0;
 
@@ -59,7 +62,7 @@ int surfaceInMap(vec2 position, out int view) {
   vec3 point = ray.origin + end * ray.direction;
   vec4 place;
   view = viewOf(point, place);
-  if (view < 0) return kOutside;
+  if (view < 0) return kOutside + (end < 1.5 * planeAt(position, 1.0) ? kAtNear : 0);
   mat4 m = shadowViews[view].texelFromCamera;
   vec4 x = rowOf(m, 0) - place.x * rowOf(m, 3), y = rowOf(m, 1) - place.y * rowOf(m, 3), z = rowOf(m, 2) - place.z * rowOf(m, 3);
   vec3 along = normalize(cross(x.xyz, y.xyz)); // the light's ray
@@ -72,8 +75,10 @@ int surfaceInMap(vec2 position, out int view) {
     nearest = min(nearest, depth);
     least = min(least, abs(depth - place.z));
   }
-  if (least <= same) return kAgrees;
-  return nearest >= 3e38 ? kEmpty : nearest > place.z ? kMissing : kHidden;
+  bool biased = all(greaterThan(place.xy, 0.5 * vec2(shadowMapSize))) && 2.0 * abs(place.z) > 1.0;
+  int added = (biased ? kSpecial : 0) + (end < 1.5 * planeAt(position, 1.0) ? kAtNear : 0);
+  if (least <= same) return added + kAgrees;
+  return added + (nearest >= 3e38 ? kEmpty : nearest > place.z ? kMissing : kHidden);
 }
 
 // The window position of a point, and how far from where its ray begins it is; a negative distance behind the eye.
@@ -112,5 +117,5 @@ int casterInDepth(ivec2 texel, int view) {
     least = min(least, abs(end - seen.z));
   }
   if (least <= same) return kAgrees;
-  return nearest >= 3e38 ? kEmpty : nearest > seen.z ? kMissing : kHidden;
+  return nearest >= 3e38 ? kEmpty : nearest > seen.z ? kMissing : kHidden + (4.0 * nearest < seen.z ? kSpecial : 0);
 }

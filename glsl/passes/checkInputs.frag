@@ -1,6 +1,6 @@
 // Check inputs: at points of a grid over the picture (the lower half) and over the shadow map's views (the upper half), what scene
 // depth and map say of each other. Reads the scene depth and a light's shadow map. Writes input checks: CHECK_WIDTH x 2 CHECK_HEIGHT
-// for each light, R8, one of the constants of lib/inputs.glsl, over 255.
+// for each light, R8, constants of lib/inputs.glsl over 255.
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/depthSamples.glsl"

@@ -13,7 +13,7 @@ float doublings(vec2 position) { return log2(max(seenAt(position), 1e-30)); }
 
 void main() {
   vec2 position = gl_FragCoord.xy;
-  int view, found = surfaceInMap(position, view);
+  int view, found = surfaceInMap(position, view) & 7;
   float end = seenAt(position), here = floor(doublings(position));
   bool onLine = here != floor(doublings(min(position + vec2(1.0, 0.0), vec2(frameSize) - 0.5))) ||
       here != floor(doublings(min(position + vec2(0.0, 1.0), vec2(frameSize) - 0.5)));

@@ -1,6 +1,7 @@
 // A frame's plan: which lights, which passes, with what programs, textures, framebuffers and blocks.
 #pragma once
 
+#include "InputChecks.h"
 #include "plan/LightPlanner.h"
 #include "reuse/RedrawPlan.h"
 
@@ -31,8 +32,8 @@ struct PlannedFrame {
   std::optional<KeptNext> next;
   gl::Uint empty = 0;  ///< what a sampler reads that has nothing to read
   gl::Uint visits = 0; ///< DebugView::NodeVisits: a texture that holds their mean
-  gl::Uint checks = 0; ///< Resource::InputChecks, of the lights whose bit is set:
-  std::uint32_t checkedLights = 0;
+  gl::Uint checks = 0; ///< Resource::InputChecks, of these lights:
+  CheckedLights checkedLights;
 };
 
 class FramePlanner {
