@@ -78,6 +78,7 @@ int surfaceInMap(vec2 position, out int view) {
   bool biased = all(greaterThan(place.xy, 0.5 * vec2(shadowMapSize))) && 2.0 * abs(place.z) > 1.0;
   int added = (biased ? kSpecial : 0) + (end < 1.5 * planeAt(position, 1.0) ? kAtNear : 0);
   if (least <= same) return added + kAgrees;
+  if (nearest > place.z && place.z + same > shadowViews[view].farDepth) return added + kOutside; // no map holds it
   return added + (nearest >= 3e38 ? kEmpty : nearest > place.z ? kMissing : kHidden);
 }
 
