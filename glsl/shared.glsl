@@ -9,6 +9,8 @@
 #define MAX_SHADOW_VIEWS 6
 #define MAX_DEPTH_SAMPLES 16
 #define EPIPOLE_GAP 0.25 // pixels between an epipole in the image and where slices begin
+#define CHECK_WIDTH 64 // points where scene depth and shadow maps are compared (Config::checkInputs), of a picture
+#define CHECK_HEIGHT 36
 #define LAMP_PIXELS 32.0 // around a lamp in the image, where every pixel is marched by itself: its light is brightest there
 
 UNIFORM_BLOCK(FrameBlock) {

@@ -32,6 +32,7 @@ inline constexpr DebugViewRow kDebugViews[] = {
     {DebugView::Transmittance, Shown::Picture, "Transmittance"},
     {DebugView::Difference, Shown::Picture, "Difference"},
     {DebugView::Redrawn, Shown::Picture, "Redrawn"},
+    {DebugView::Inputs, Shown::Picture, "Inputs"},
 };
 
 /// Null for what is none of the enumerators.

@@ -36,6 +36,7 @@ Status Effect::State::render(const Frame& given) {
   Frame frame = withCubeViews(given);
   if (Status s = checkTextures(gl, frame, textures); !s) return s;
   chooseCopies(frame, textures);
+  if (Status s = takeChecks(frame, textures, guard); !s) return s;
   if (Status s = takeMeshes(frame); !s) return s;
   beginStatistics();
   KeptEye* eye = eyeOf(frame);
@@ -44,6 +45,25 @@ Status Effect::State::render(const Frame& given) {
   Status status = planFrame(frame, textures, eye, planned);
   if (status) draw(planned, guard);
   keep(frame, eye, status ? &planned : nullptr);
+  return status;
+}
+
+// What earlier frames' pixels said. Of a frame that is refused for that only the check is drawn: until it finds
+// nothing.
+Status Effect::State::takeChecks(const Frame& frame, const FrameTextures& textures, gl::StateGuard& guard) {
+  if (!checksInputs) return {};
+  inputChecks.receive();
+  const std::vector<std::string>& found = inputChecks.warnings();
+  if (found.empty() || !warningsAreErrors) {
+    warnings.insert(warnings.end(), found.begin(), found.end());
+    return {};
+  }
+  const Status status{StatusCode::InvalidFrame, found.front()};
+  beginStatistics();
+  PlannedFrame planned;
+  if (Status s = planFrame(frame, textures, nullptr, planned, Draws::CheckOnly); !s) return s;
+  draw(planned, guard);
+  targets.endFrame();
   return status;
 }
 
@@ -62,16 +82,20 @@ void Effect::State::beginStatistics() {
   lastEye.reset();
 }
 
-Status Effect::State::planFrame(const Frame& frame, const FrameTextures& textures, KeptEye* eye,
-                                PlannedFrame& planned) {
+Status Effect::State::planFrame(const Frame& frame, const FrameTextures& textures, KeptEye* eye, PlannedFrame& planned,
+                                Draws what) {
   framebuffers.beginFrame();
   Allocator allocator(framebuffers, true);
   const PlanInputs inputs{frame, textures, limits, tuning, targets, eye, recorder.counts(), &paces};
-  FramePlanner(inputs, allocator, planned).plan();
+  FramePlanner planner(inputs, allocator, planned);
+  if (what == Draws::All) planner.plan();
+  if (checksInputs) planner.planCheck();
   planned.empty = allocator.texture(targets, Resource::Empty, {});
   if (!allocator.status()) return allocator.status();
   requestPrograms(planned.plan, programs);
   if (Status s = resolvePrograms(planned.plan, programs, Resolve::ToDraw); !s) return s;
+  if (planned.checks != 0)
+    if (Status s = inputChecks.reserve(stateMode); !s) return s;
   return blocks.upload(planned.plan, limits.blockAlignment);
 }
 
@@ -83,6 +107,7 @@ void Effect::State::draw(const PlannedFrame& planned, gl::StateGuard& guard) {
   recorder.countMarched(planned.plan.marched);
   drawPlan(planned.plan, gl, {vertexArray.name(), nearestSampler.name(), planned.empty, blocks}, recorder, paces);
   visits = planned.visits;
+  if (planned.checks != 0) inputChecks.ask(planned.checks, planned.checkedLights, stateMode);
 }
 
 // All that is planned sees the camera without its jitter, as the eye's last frame saw it if that has not moved.
@@ -164,6 +189,7 @@ std::vector<FramePlan> Effect::State::planAhead(const Frame& frame, const FrameT
   for (const bool sumsApart : {false, true})
     if (!sumsApart || frame.lights.size() > 1)
       plan(frame, nullptr, [](FramePlanner& planner) { planner.plan(); }, sumsApart);
+  if (checksInputs) plan(frame, nullptr, [](FramePlanner& planner) { planner.planCheck(); });
   if (frame.reuse.changes == Changes::Unknown) return plans;
   KeptEye eye(gl, framebuffers, frame.reuse.eye);
   plan(frame, &eye, [](FramePlanner& planner) { planner.plan(); });

@@ -72,7 +72,8 @@ Statistics Effect::statistics() {
   State& state = *state_;
   KeptEye* const eye = state.lastEye ? state.eyes.find(*state.lastEye) : nullptr;
   return {state.recorder.collect(),
-          state.targets.bytes() + state.eyes.bytes() + state.objectBoxes.bytes() + state.blocks.bytes(),
+          state.targets.bytes() + state.eyes.bytes() + state.objectBoxes.bytes() + state.inputChecks.bytes() +
+              state.blocks.bytes(),
           state.programs.size(),
           state.recorder.fixupPixels(),
           state.recorder.marched(),

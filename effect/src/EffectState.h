@@ -4,6 +4,7 @@
 #include "BandPaces.h"
 #include "CheckFrame.h"
 #include "ContextWatch.h"
+#include "InputChecks.h"
 #include "ObjectBoxes.h"
 #include "PassRecorder.h"
 #include "Tuning.h"
@@ -16,14 +17,17 @@
 
 namespace tyndall {
 
+/// Of a frame.
+enum class Draws { All, CheckOnly };
+
 struct Effect::State {
   explicit State(const Config& config)
-      : stateMode(config.state), warningsAreErrors(config.warningsAreErrors), tuning(config.tuning), watch(gl),
-        programs(gl, config.programs), framebuffers(gl), targets(gl, framebuffers), recorder(gl, config.timing),
-        paces(gl), eyes(gl, framebuffers), objectBoxes(gl), blocks(gl) {}
+      : stateMode(config.state), checksInputs(config.checkInputs), warningsAreErrors(config.warningsAreErrors),
+        tuning(config.tuning), watch(gl), programs(gl, config.programs), framebuffers(gl), targets(gl, framebuffers),
+        recorder(gl, config.timing), paces(gl), eyes(gl, framebuffers), objectBoxes(gl), inputChecks(gl), blocks(gl) {}
 
   StateMode stateMode;
-  bool warningsAreErrors;
+  bool checksInputs, warningsAreErrors;
   Tuning tuning; ///< nothing is left to choose once the objects are made
   gl::Functions gl;
   ContextWatch watch;
@@ -35,6 +39,7 @@ struct Effect::State {
   BandPaces paces;
   KeptEyes eyes;
   ObjectBoxes objectBoxes;
+  InputChecks inputChecks;
   gl::VertexArray vertexArray;
   gl::Sampler nearestSampler;
   BlockBuffers blocks;
@@ -50,7 +55,9 @@ struct Effect::State {
   KeptEye* eyeOf(const Frame& frame);
   static Camera steadyCamera(const Frame& frame, const KeptEye* eye);
   void beginStatistics();
-  Status planFrame(const Frame& frame, const FrameTextures& textures, KeptEye* eye, PlannedFrame& planned);
+  Status planFrame(const Frame& frame, const FrameTextures& textures, KeptEye* eye, PlannedFrame& planned,
+                   Draws what = Draws::All);
+  Status takeChecks(const Frame& frame, const FrameTextures& textures, gl::StateGuard& guard);
   void draw(const PlannedFrame& planned, gl::StateGuard& guard);
   void keep(const Frame& frame, KeptEye* eye, PlannedFrame* planned);
   Status render(const Frame& frame);

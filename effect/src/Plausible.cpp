@@ -21,12 +21,13 @@ void checkRow(const Camera& camera, Findings& findings) {
   const glm::dmat4 clipFromView = toGlm(camera.clipFromView);
   if (optics::hasUsualRow(clipFromView)) return;
   const std::string row = "has the last row " + rowText(glm::transpose(clipFromView)[3]);
-  if (optics::hasUsualRow(glm::transpose(clipFromView)))
-    return findings.wrong({StatusCode::InvalidFrame,
-                           "Frame::camera.clipFromView " + row + ": it is transposed (mat4RowMajor takes rows)"});
-  if (optics::hasUsualRow(glm::inverse(clipFromView)))
-    return findings.wrong({StatusCode::InvalidFrame,
-                           "Frame::camera.clipFromView " + row + ": it is the inverse of a projection, viewFromClip"});
+  const bool transposed = optics::hasUsualRow(glm::transpose(clipFromView));
+  const bool inverted = optics::hasUsualRow(glm::inverse(clipFromView));
+  if (transposed || inverted)
+    return findings.wrong(
+        {StatusCode::InvalidFrame,
+         "Frame::camera.clipFromView " + row + ": it is " + (transposed ? "transposed (mat4RowMajor takes rows)" : "") +
+             (transposed && inverted ? ", or " : "") + (inverted ? "the inverse of a projection, viewFromClip" : "")});
   findings.warnings.push_back("Frame::camera.clipFromView " + row +
                               ": projections have (0, 0, -1, 0) or (0, 0, 0, 1); is a view matrix in it, too?");
 }

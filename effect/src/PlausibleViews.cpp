@@ -123,32 +123,36 @@ void checkAxis(const Lamp& lamp, std::size_t i, Findings& findings) {
                          "is an atlas's tile (rectangle)"));
 }
 
-// A spot's view holds its cone.
+// How far from the picture's middle a direction from the eye is, in half its width; infinite for what is behind.
+double awayFrom(const Projection& view, const glm::dvec3& way) {
+  const glm::dvec4 clip = view.depthClipFromWorld * glm::dvec4(way, 0);
+  const bool ahead = clip.w != 0 && (clip.w > 0) == ((view.depthClipFromWorld * view.middle(0.5)).w > 0);
+  return ahead ? std::max(std::abs(clip.x), std::abs(clip.y)) / std::abs(clip.w) : kInfinity;
+}
+
+// A spot's view holds its cone, whose rim is nearly dark.
 void checkCone(const Lamp& lamp, Findings& findings) {
   const Projection& view = lamp.views.front();
-  const glm::dvec3 axis = lamp.direction(), eye = lamp.position();
-  const glm::dvec4 ahead = view.depthClipFromWorld * glm::dvec4(eye + axis, 1);
-  const bool behind = (ahead.w < 0) != ((view.depthClipFromWorld * view.middle(0.5)).w < 0);
-  const std::string field = "lights[" + std::to_string(lamp.index) + "].";
-  if (behind || std::max(std::abs(ahead.x), std::abs(ahead.y)) > std::abs(ahead.w))
-    return findings.wrong(invalid(field + "direction", textOf(lamp.light.direction),
-                                  "outside of " + viewField(lamp.index, 0) + ", which must hold the cone"));
-  const glm::dvec3 side =
-      glm::normalize(glm::cross(axis, std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
-  const glm::dvec3 up = glm::cross(axis, side);
-  double farthest = 0; // from the picture's middle
+  const glm::dvec3 axis = lamp.direction();
+  const glm::dvec3 other = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 side = glm::normalize(glm::cross(axis, other)), up = glm::cross(axis, side);
+  const double cone = lamp.light.outerConeAngle;
+  double nearest = awayFrom(view, axis), farthest = nearest;
   for (int k = 0; k < 16; ++k) {
-    const double turn = k * glm::pi<double>() / 8, cone = lamp.light.outerConeAngle;
-    const glm::dvec3 rim = std::cos(cone) * axis + std::sin(cone) * (std::cos(turn) * side + std::sin(turn) * up);
-    const glm::dvec4 clip = view.depthClipFromWorld * glm::dvec4(eye + rim, 1);
-    const bool isBehind = (clip.w < 0) != (ahead.w < 0) || clip.w == 0;
-    farthest =
-        std::max(farthest, isBehind ? kInfinity : std::max(std::abs(clip.x / clip.w), std::abs(clip.y / clip.w)));
+    const double turn = k * glm::pi<double>() / 8;
+    const double away =
+        awayFrom(view, std::cos(cone) * axis + std::sin(cone) * (std::cos(turn) * side + std::sin(turn) * up));
+    nearest = std::min(nearest, away);
+    farthest = std::max(farthest, away);
   }
-  constexpr double kMost = 1.1; // of the view's half width: a tenth of it may be left to the cone's dark rim
-  if (farthest > kMost)
+  const std::string field = "lights[" + std::to_string(lamp.index) + "].";
+  constexpr double kRim = 1.1;
+  if (nearest > 1)
+    findings.wrong(invalid(field + "direction", textOf(lamp.light.direction),
+                           "all of the cone is outside of " + viewField(lamp.index, 0)));
+  else if (farthest > kRim)
     findings.warnings.push_back(
-        lineOf(field + "outerConeAngle", text(lamp.light.outerConeAngle),
+        lineOf(field + "outerConeAngle", text(cone),
                "a half angle, in radians; the cone reaches out of " + viewField(lamp.index, 0)));
 }
 
@@ -228,11 +232,8 @@ void checkLayers(const Lamp& lamp, std::size_t i, Findings& findings) {
 
 bool isInView(const Lamp& lamp, const glm::dvec3& way) {
   constexpr double kRounding = 1e-4;
-  return std::any_of(lamp.views.begin(), lamp.views.begin() + lamp.count, [&](const Projection& view) {
-    const glm::dvec4 clip = view.depthClipFromWorld * glm::dvec4(way, 0);
-    const bool ahead = (clip.w > 0) == ((view.depthClipFromWorld * view.middle(0.5)).w > 0);
-    return ahead && std::max(std::abs(clip.x), std::abs(clip.y)) <= (1 + kRounding) * std::abs(clip.w);
-  });
+  return std::any_of(lamp.views.begin(), lamp.views.begin() + lamp.count,
+                     [&](const Projection& view) { return awayFrom(view, way) <= 1 + kRounding; });
 }
 
 // A point light shines to all sides: to the middles, edges and corners of a cube.

@@ -24,7 +24,8 @@ const Names<tyndall::DebugView> kViews = {{"composite", tyndall::DebugView::Comp
                                           {"inscatter", tyndall::DebugView::Inscatter},
                                           {"transmittance", tyndall::DebugView::Transmittance},
                                           {"difference", tyndall::DebugView::Difference},
-                                          {"redrawn", tyndall::DebugView::Redrawn}};
+                                          {"redrawn", tyndall::DebugView::Redrawn},
+                                          {"inputs", tyndall::DebugView::Inputs}};
 const Names<tyndall::ShadowFilter> kFilters = {{"nearest", tyndall::ShadowFilter::Nearest},
                                                {"bilinear", tyndall::ShadowFilter::Bilinear}};
 const Names<bool> kSwitch = {{"on", true}, {"off", false}};
@@ -42,7 +43,7 @@ Files
   input, or named by another output is refused.
 Views
   composite (default), inscatter, transmittance, and difference (to exact; grey 0, red +10 %, blue -10 % of the mean);
-  redrawn (red: not kept from the last frame);
+  redrawn (red: not kept from the last frame); inputs (distances, and the first light's shadow views);
   with --technique tree, lowrank or epipolar slices and node-visits (black 0 to white 1023, ticks at 4, 16, 64, 256); with
   epipolar samples, breaks, march-samples and fixup-pixels. tyndall.h explains the colours. All but composite and
   inscatter go into the PNG without tone mapping.
@@ -242,6 +243,7 @@ void addRest(CLI::App& app, Options& options, Given& given) {
              app.add_option("--context", options.context, "GL's (default osmesa; egl where it is not installed)"));
   app.add_flag("--no-program-cache", given.noProgramCache,
                "compile every shader: linked programs are neither read from the user's cache folder nor kept there");
+  app.add_flag("--check-inputs", options.checkInputs, "note where scene depth and shadow maps do not show one scene");
   app.add_flag("--strict", options.strict, "fail where there is a note: nothing is made up, left out or changed");
   app.add_option("--exposure", options.exposureStops,
                  "of the PNG, in stops (default: by the first picture's brightness)")

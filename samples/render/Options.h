@@ -62,6 +62,7 @@ struct Options {
   bool resume = false;              ///< whether frames whose files are whole stay as they are
   bool missing = false;             ///< whether to draw nothing, and name the frames that are not
   bool debug = true;                ///< whether the driver checks and tells, which takes time of the processor
+  bool checkInputs = false;         ///< whether depth and shadow maps are compared
   bool strict = false;              ///< whether a note ends it before a picture is written
   tyndall::Changes changes = tyndall::Changes::Unknown; ///< how frames after the first reuse what they can
   tyndall::Tuning tuning;

@@ -103,6 +103,7 @@ FrameRenderer::FrameRenderer(const Options& options)
   config.loader = context_->loader();
   config.timing = timingFor(context_->driver());
   config.tuning = options.tuning;
+  config.checkInputs = options.checkInputs;
   if (options.programs) config.programs = host::programFiles(*options.programs);
   tyndall::CreateResult created = tyndall::Effect::create(config);
   if (!created.status) throw host::Error("effect: " + created.status.message);
@@ -293,7 +294,9 @@ void FrameRenderer::draw(int frame) {
 
 Measurement FrameRenderer::render(int frame) {
   draw(frame);
+  if (options_.checkInputs) renderEffect(frame_); // what it finds is known in the next
   Measurement measurement = measure();
+  addOnce(notes_, measurement.statistics.warnings);
   if (volumeShadows_) measurement.volumeShadows = volumeShadows_->statistics();
   throwGlErrors();
   return measurement;

@@ -273,6 +273,10 @@ enum class DebugView {
   Difference,    ///< the technique's inscatter less exact's, which is rendered too: mean over R, G, B, as a part of the
                  ///< mean of exact over the image. Grey 0, red up to +10 %, blue down to -10 %; ticks every 5 %
   Redrawn,       ///< Frame::reuse: pixels that this frame drew anew red, the others black; without reuse all are red
+  Inputs, ///< what the effect was given, to find mistakes: depth as distance, darker up to a white line each time that
+          ///< it doubles; in the hue of the first light's shadow view that a surface lies in, grey outside all; dark
+          ///< where the map shadows it, magenta where its surface lies far in front of the map's, which few right
+          ///< pairs show, orange where the map has none; no distance (NaN) red, sky nearly black. Any technique
 };
 
 struct Settings {

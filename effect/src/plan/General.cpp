@@ -91,6 +91,11 @@ gl::Definitions general(const std::string& fragment, gl::Definitions definitions
     values.set("MONOCHROME", 1);
     values.set("CURVES", 0);
   }
+  // What maps and depth say of each other depends on neither filter nor glass; without a view nothing is looked up.
+  if (isOneOf(fragment, {"checkInputs", "debugInputs"})) {
+    values.set("FILTER_BILINEAR", 0);
+    values.set("GLASS", 0);
+  }
   // A point light is a spot with an open cone: to low rank, which has the cone in its factors, and where it is seldom.
   if (isSeldom(fragment, values) && values["LIGHT_KIND"] == 1) values.set("LIGHT_KIND", 2);
   if (isOneOf(fragment, {"exact", "fixup", "march", "marchExtra", "pixelTree", "rowDepths", "tintGroups"}))

@@ -329,6 +329,11 @@ std::vector<PassRow> makeRows() {
           .into(Into::Destination)
           .joins(kSumOfLights)
           .sameForAllLights(),
+      Row(Pass::CheckInputs, "check", "passes/checkInputs.frag")
+          .reads({R::ShadowMap})
+          .readsIfThere({R::SceneDepth, R::SceneDepthSamples}) // one of the two
+          .writes({R::InputChecks})
+          .when(hasRows),
       Row(Pass::DebugSlices, "debug view", "passes/debugSlices.frag")
           .reads({R::SliceTable})
           .into(Into::DebugView)
@@ -371,6 +376,10 @@ std::vector<PassRow> makeRows() {
           .into(Into::Colour)
           .joins(Joining::OverwriteRgb)
           .sameForAllLights(),
+      Row(Pass::DebugInputs, "debug view", "passes/debugInputs.frag")
+          .readsIfThere({R::SceneDepth, R::SceneDepthSamples, R::ShadowMap})
+          .into(Into::Colour)
+          .joins(Joining::OverwriteRgb),
   };
 }
 

@@ -60,6 +60,7 @@ enum class Pass {
   ChangedSlices,
   ChangedTiles,
   ChangedPixels,
+  CheckInputs,
   // Debug views.
   DebugSlices,
   DebugSamples,
@@ -71,6 +72,7 @@ enum class Pass {
   DebugImage,
   DebugVisits,
   DebugDifference,
+  DebugInputs,
   Count
 };
 

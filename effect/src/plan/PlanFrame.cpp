@@ -209,6 +209,7 @@ void FramePlanner::planPicture() {
   board[Resource::Inscatter] = from.inscatter;
   board[Resource::Transmittance] = from.transmittance;
   if (!hasDebugView(frame_)) return planComposite();
+  if (view == DebugView::Inputs) return planInputs();
   board[Resource::Image] = view == DebugView::Transmittance                    ? from.transmittance
                            : showsSlices(frame_) || view == DebugView::Redrawn ? board[Resource::DebugView]
                                                                                : from.inscatter;
@@ -246,6 +247,38 @@ void FramePlanner::planMean(gl::Uint image) {
   passes_.board[Resource::Image] = image;
   passes_.draw(Pass::DebugRowMeans);
   passes_.draw(Pass::DebugMean);
+}
+
+// A light with its map, which is not to be drawn.
+LightPlanner FramePlanner::mapOf(std::size_t light) {
+  const FrameTextures::Shadow& map = in_.textures.shadows[light];
+  passes_.frameBlock = out_.plan.add(optics::frameBlock(frame_, {in_.textures.depthSamples, 0, 0, 0}));
+  const DrawnLight drawn{light, nameOf(frame_, light), frame_.settings,
+                         optics::lightBlock(frame_, frame_.lights[light], map.width, map.height),
+                         variantOf(frame_, frame_.lights[light], passes_.variant.dualSource, false)};
+  return {passes_, frame_, drawn, in_.textures};
+}
+
+// Of the first light that has a map.
+void FramePlanner::planInputs() {
+  const auto& lights = frame_.lights;
+  const auto mapped = std::find_if(lights.begin(), lights.end(), [](const Light& l) { return l.shadow.texture != 0; });
+  if (mapped == lights.end()) return passes_.draw(Pass::DebugInputs);
+  mapOf(static_cast<std::size_t>(mapped - lights.begin())).draw(Pass::DebugInputs);
+}
+
+void FramePlanner::planCheck() {
+  for (std::size_t i = 0; i < frame_.lights.size(); ++i) {
+    if (frame_.lights[i].shadow.texture == 0) continue;
+    LightPlanner light = mapOf(i);
+    DrawOptions options;
+    options.viewport = Viewport{0, static_cast<int>(2 * CHECK_HEIGHT * i), CHECK_WIDTH, 2 * CHECK_HEIGHT};
+    light.draw(Pass::CheckInputs, options);
+    out_.checks = light.board[Resource::InputChecks];
+    out_.checkedLights.all |= 1U << i;
+    if (light.light.kind == LightKind::Directional) out_.checkedLights.suns |= 1U << i;
+    if (light.variant.curves) out_.checkedLights.hazy |= 1U << i;
+  }
 }
 
 void FramePlanner::copyToOutput(gl::Uint from, gl::Uint output) {

@@ -1,6 +1,7 @@
 // A frame's plan: which lights, which passes, with what programs, textures, framebuffers and blocks.
 #pragma once
 
+#include "InputChecks.h"
 #include "plan/LightPlanner.h"
 #include "reuse/RedrawPlan.h"
 
@@ -31,6 +32,8 @@ struct PlannedFrame {
   std::optional<KeptNext> next;
   gl::Uint empty = 0;  ///< what a sampler reads that has nothing to read
   gl::Uint visits = 0; ///< DebugView::NodeVisits: a texture that holds their mean
+  gl::Uint checks = 0; ///< Resource::InputChecks, of these lights:
+  CheckedLights checkedLights;
 };
 
 class FramePlanner {
@@ -39,6 +42,9 @@ public:
 
   /// Every step of the frame; what could not be made is the allocator's status.
   void plan();
+
+  /// Compares scene depth and shadow maps (Config::checkInputs), into PlannedFrame::checks.
+  void planCheck();
 
   /// The same for what may be kept of the last frame and is drawn anew: to compile ahead for it.
   void planRedrawn(bool comparesEnds, bool comparesRows);
@@ -67,6 +73,8 @@ private:
   void planComposite();
   void planDifference();
   void planMean(gl::Uint image);
+  LightPlanner mapOf(std::size_t light);
+  void planInputs();
   void showRedrawn(Redraw picture, const Mask& mask);
   void copyToOutput(gl::Uint from, gl::Uint output);
 

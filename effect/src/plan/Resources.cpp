@@ -1,6 +1,9 @@
 #include "plan/Resources.h"
 
 #include "Rounding.h"
+#include "SharedBlocks.h"
+
+#include <tyndall/tyndall.h>
 
 #include <algorithm>
 #include <cctype>
@@ -78,6 +81,7 @@ Size lowRankLights(E e) { return {e.lowRankSets, 2 * e.terms * 64}; }
 Size tints(E e) { return {e.rowTexels >> (2 * e.tintLevel + 2), unitsFor(e.terms, 4) * e.rowRoom}; }
 Size drawnTints(E e) { return {e.drawnTexels >> (2 * e.tintLevel + 2), unitsFor(e.terms, 4) * e.rowRoom}; }
 
+Size checks(E) { return {CHECK_WIDTH, 2 * CHECK_HEIGHT * kMaxLights}; }
 Size tiles(E e) { return {kTilesAcross, unitsFor(tilesOf(e), kTilesAcross)}; }
 
 // In the order of the enumerators.
@@ -178,6 +182,8 @@ constexpr ResourceRow kRows[] = {
     {"changed tiles", kR32, kR32, always, always, tiles, tiles, Lifetime::Frame, "the same: squares of 16 x 16 pixels"},
     {"last depth", kR32, kR32, always, always, image, image, Lifetime::Eye,
      "the same: the last frame's scene depth, where it is compared"},
+    {"input checks", kR8, kR8, always, always, checks, checks, Lifetime::Frame,
+     "Config::checkInputs: what scene depth and each light's shadow map say of each other"},
     {"debug view", kRgba32, kRgba32, always, always, image, image, Lifetime::Frame,
      "debug views of slices: what is counted or shown, until all lights are done"},
     {"debug exact", kRgba32, kRgba32, always, always, image, image, Lifetime::Frame,

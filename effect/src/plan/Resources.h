@@ -73,6 +73,7 @@ enum class Resource {
   MovedSlices,
   ChangedTiles,
   LastDepth,
+  InputChecks,
   DebugView,
   DebugExact,
   DebugRowMeans,

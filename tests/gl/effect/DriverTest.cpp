@@ -135,7 +135,7 @@ TEST_CASE("debug views read nothing that no pass has written") {
   tests::ShaftRig rig(48, 32);
   addLight(rig, kCases[0]);
   rig.scene.frame.settings.technique = Technique::Epipolar;
-  for (int view = 0; view <= static_cast<int>(DebugView::Redrawn); ++view) {
+  for (int view = 0; view <= static_cast<int>(DebugView::Inputs); ++view) {
     CAPTURE(view);
     rig.scene.frame.settings.debugView = static_cast<DebugView>(view);
     std::vector<std::vector<float>> pictures;

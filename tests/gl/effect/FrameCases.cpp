@@ -107,6 +107,8 @@ void addViews(std::vector<FrameCase>& all) {
     item.view = static_cast<DebugView>(view);
     all.push_back(item);
   }
+  all.push_back(make("view of inputs", Technique::Epipolar));
+  all.back().view = DebugView::Inputs;
   for (const DebugView view : {DebugView::Slices, DebugView::NodeVisits, DebugView::Difference})
     for (const Technique technique : {Technique::Tree, Technique::LowRank}) {
       const std::string name = technique == Technique::Tree ? "tree" : "low rank";

@@ -221,7 +221,7 @@ const std::vector<Breakage> kBreakages = {
      [](Frame& f) { setEnum(f.medium.constituents[0].phase, -1); },
      {"medium.constituents[0].phase is -1", "enumerators"}},
     {"technique", [](Frame& f) { setEnum(f.settings.technique, 99); }, {"settings.technique is 99", "enumerators"}},
-    {"view", [](Frame& f) { setEnum(f.settings.debugView, 11); }, {"settings.debugView is 11", "enumerators"}},
+    {"view", [](Frame& f) { setEnum(f.settings.debugView, 12); }, {"settings.debugView is 12", "enumerators"}},
     {"view below", [](Frame& f) { setEnum(f.settings.debugView, -1); }, {"settings.debugView is -1", "enumerators"}},
     {"slices of exact",
      [](Frame& f) { f.settings.debugView = DebugView::Slices; },

@@ -87,7 +87,7 @@ TEST_CASE(
   const std::vector<std::function<void()>> changes = {[&] { rig.look(tests::lookAt({0.1, 2, 0}, {0, 2, -1})); },
                                                       [&] { frame.medium.absorption = {0.01F, 0.01F, 0.01F}; },
                                                       [&] { frame.lights[0].colour = {2, 1, 1}; },
-                                                      [&] { frame.lights[0].direction = {0.25, -0.61, 1}; },
+                                                      [&] { frame.lights[0].direction = {0.25, -0.602, 1}; },
                                                       [&] { frame.settings.slices = 700; },
                                                       [&] { frame.settings.shadowFilter = ShadowFilter::Bilinear; },
                                                       [&] {

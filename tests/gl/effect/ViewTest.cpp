@@ -94,7 +94,7 @@ TEST_CASE("every view draws for every technique and light, and leaves the output
       scene.frame.settings.technique = technique;
       scene.frame.settings.samples = 64;
       const reference::ImageAnswer expected = scene.render();
-      for (int i = 1; i <= static_cast<int>(DebugView::Redrawn); ++i) {
+      for (int i = 1; i <= static_cast<int>(DebugView::Inputs); ++i) {
         const auto view = static_cast<DebugView>(i);
         CAPTURE(static_cast<int>(kind), static_cast<int>(technique), i);
         if (!allows(technique, view)) continue;

@@ -1,6 +1,8 @@
 # What the effect decides without GL: profiles, tunings, bands of draws, sizes of textures, what is drawn anew.
 set(TYNDALL_UNIT_EFFECT_SOURCES ${CMAKE_CURRENT_LIST_DIR}/BandPacesTest.cpp
                                ${CMAKE_CURRENT_LIST_DIR}/BandsTest.cpp
+                               ${CMAKE_CURRENT_LIST_DIR}/InputChecksTest.cpp
+                               ${CMAKE_CURRENT_LIST_DIR}/MatrixTest.cpp
                                ${CMAKE_CURRENT_LIST_DIR}/ProfilesTest.cpp
                                ${CMAKE_CURRENT_LIST_DIR}/RedrawPlanTest.cpp
                                ${CMAKE_CURRENT_LIST_DIR}/ResourcesTest.cpp
