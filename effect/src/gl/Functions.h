@@ -89,6 +89,11 @@ using Sync = ::__GLsync*;
   X(void, DeleteFramebuffers, (Sizei n, const Uint* names), None)                                                      \
   X(void, BindFramebuffer, (Enum target, Uint framebuffer), Framebuffers)                                              \
   X(void, FramebufferTexture2D, (Enum target, Enum attachment, Enum kind, Uint texture, Int level), None)              \
+  X(void, FramebufferTextureLayer, (Enum target, Enum attachment, Uint texture, Int level, Int layer), None)           \
+  X(void, BlitFramebuffer,                                                                                             \
+    (Int fromX, Int fromY, Int fromEndX, Int fromEndY, Int toX, Int toY, Int toEndX, Int toEndY, Bitfield what,        \
+     Enum filter),                                                                                                     \
+    None)                                                                                                              \
   X(Enum, CheckFramebufferStatus, (Enum target), None)                                                                 \
   X(void, DrawBuffers, (Sizei n, const Enum* buffers), None)                                                           \
   X(Uint, CreateShader, (Enum kind), None)                                                                             \
@@ -163,7 +168,6 @@ using Sync = ::__GLsync*;
   X(void, TexStorage3D, (Enum target, Sizei levels, Enum format, Sizei width, Sizei height, Sizei depth), None)        \
   X(void, ClearBufferSubData,                                                                                          \
     (Enum target, Enum internal, Intptr offset, Sizeiptr size, Enum format, Enum type, const void* data), None)        \
-  X(void, FramebufferTextureLayer, (Enum target, Enum attachment, Uint texture, Int level, Int layer), None)           \
   X(void, ClipControl, (Enum origin, Enum depth), ClipControl)                                                         \
   X(Enum, GetGraphicsResetStatus, (), None)                                                                            \
   X(Enum, GetGraphicsResetStatusARB, (), None)                                                                         \

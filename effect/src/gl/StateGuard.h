@@ -29,6 +29,8 @@ public:
   void saveUnits(int count, bool arrays, bool multisampled);
   /// Function, operation and mask of the stencil; its test is off in any case.
   void saveStencil();
+  /// The read framebuffer.
+  void saveReadFramebuffer();
   /// Of viewport 0; its test is off in any case.
   void saveScissorBox();
 
@@ -89,7 +91,8 @@ private:
   int unitCount_ = 1; // units 0 to unitCount_ - 1
   std::array<bool, 4> unitTargets_{true, false, false, false};
   std::vector<Unit> units_;
-  bool savesStencil_ = false;
+  bool savesStencil_ = false, savesReadFramebuffer_ = false;
+  Int readFramebuffer_ = 0;
   std::array<StencilFace, 2> stencil_;
 };
 

@@ -20,7 +20,7 @@ struct DrawObjects {
 /// Texture units and targets that a plan's programs read, and what else of GL's state its draws change.
 struct UnitsUsed {
   int count = 0;
-  bool arrays = false, multisampled = false, stencil = false, scissor = false;
+  bool arrays = false, multisampled = false, stencil = false, scissor = false, copies = false;
 };
 
 /// Starts to build the plan's programs.

@@ -159,11 +159,13 @@ gl::Uint PassPlanner::destinationTarget(Blend blend, bool withStencil) {
 }
 
 gl::Uint PassPlanner::imageTarget(std::array<gl::Uint, 3> colours, bool withStencil) {
-  Attachments attachments{colours, withStencil ? allocator.stencil(frameTargets, extent) : 0, false};
-  const std::vector<gl::Uint>& engines = destination.engines;
-  attachments.engines = std::any_of(colours.begin(), colours.end(), [&](gl::Uint texture) {
-    return texture != 0 && std::find(engines.begin(), engines.end(), texture) != engines.end();
-  });
+  Attachments attachments{colours, withStencil ? allocator.stencil(frameTargets, extent) : 0};
+  for (const Surface& engines : destination.engines)
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+      if (colours[i] == 0 || colours[i] != engines.texture) continue;
+      attachments.engines = true;
+      attachments.layers[i] = engines.layer;
+    }
   return allocator.framebuffer(attachments, colours[0] != 0 && colours[0] == destination.colour ? "colour" : "output");
 }
 

@@ -107,8 +107,7 @@ const std::set<std::string> kLaterFunctions = {
     "glPushDebugGroup", "glPopDebugGroup", "glObjectLabel", "glGetProgramBinary", "glProgramBinary",
     "glProgramParameteri", "glClipControl", "glGetGraphicsResetStatus", "glGetGraphicsResetStatusARB",
     // of an AVSM alone
-    "glFramebufferTextureLayer", "glDispatchCompute", "glMemoryBarrier", "glBindImageTexture", "glTexStorage3D",
-    "glClearBufferSubData",
+    "glDispatchCompute", "glMemoryBarrier", "glBindImageTexture", "glTexStorage3D", "glClearBufferSubData",
     // that save calls
     "glGetTextureParameteriv", "glBindTextures", "glBindSamplers"};
 
