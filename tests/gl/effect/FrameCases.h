@@ -26,6 +26,8 @@ struct FrameCase {
   tyndall::DebugView view = tyndall::DebugView::Composite;
   bool glass = false, bilinear = false, curves = false, spread = false, bright = false, multisampled = false,
        versionedMesh = false;
+  bool elsewhere = false; ///< the viewport is a part of larger textures, and of the depth not each pixel has a texel
+  bool layered = false;   ///< targets are layers of arrays
   tyndall::Changes changes = tyndall::Changes::Unknown;
   Motion motion = Motion::None;
   int before = 0; ///< frames of the view that were drawn before the one that is looked at
@@ -76,12 +78,14 @@ public:
   TargetContents draw(tyndall::Effect& effect);
 
 private:
+  void makeTargets();
   void show(int number);
   tyndall::MovingObject reshape(int number);
 
   FrameCase case_;
   int width_, height_;
   ShaftRig rig_;
+  int targetWidth_, targetHeight_;
   std::vector<float> values_; ///< of a target that nothing was drawn into
   int number_ = 0;
   host::GlTexture colour_, inscatter_, transmittance_;

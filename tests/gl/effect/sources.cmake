@@ -20,6 +20,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/FaultyContext.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FaultyContextTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameCases.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/FrameRectanglesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameTexturesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameValuesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GlState.cpp
