@@ -247,9 +247,12 @@ public:
     found = {static_cast<Enum>(info.format), largestValue(info.format)};
     if (first_.width == 0) {
       first_ = info;
+      firstField_ = target.field;
       return within("viewport", frame_.viewport, target.field, info);
     }
-    return sized(target.field, target.name, info, first_.width, first_.height);
+    Status s = sized(target.field, target.name, info, first_.width, first_.height);
+    if (!s) s.message += ", as " + firstField_;
+    return s;
   }
   const Info& size() const { return first_; }
 
@@ -257,6 +260,7 @@ private:
   const Functions& gl_;
   const Frame& frame_;
   Info first_;
+  std::string firstField_;
 };
 
 Status checkTargets(const Functions& gl, const Frame& frame, FrameTextures& textures, Info& size) {

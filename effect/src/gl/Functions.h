@@ -94,6 +94,10 @@ using Sync = ::__GLsync*;
   X(void, BindFramebuffer, (Enum target, Uint framebuffer), Framebuffers)                                              \
   X(void, FramebufferTexture2D, (Enum target, Enum attachment, Enum kind, Uint texture, Int level), None)              \
   X(void, FramebufferTextureLayer, (Enum target, Enum attachment, Uint texture, Int level, Int layer), None)           \
+  X(void, BlitFramebuffer,                                                                                             \
+    (Int fromX, Int fromY, Int fromEndX, Int fromEndY, Int toX, Int toY, Int toEndX, Int toEndY, Bitfield what,        \
+     Enum filter),                                                                                                     \
+    None)                                                                                                              \
   X(Enum, CheckFramebufferStatus, (Enum target), None)                                                                 \
   X(void, DrawBuffers, (Sizei n, const Enum* buffers), None)                                                           \
   X(Uint, CreateShader, (Enum kind), None)                                                                             \

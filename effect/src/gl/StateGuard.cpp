@@ -170,6 +170,7 @@ void StateGuard::restore() const {
   if (scissorBox_) setScissor(gl_, *scissorBox_);
   if (scissor_) setScissorTest(gl_, true);
   if (savesStencil_) restoreStencil();
+  if (savesReadFramebuffer_) gl_.BindFramebuffer(READ_FRAMEBUFFER, static_cast<Uint>(readFramebuffer_));
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -297,6 +298,11 @@ void StateGuard::saveStencil() {
                  integer(gl_, STENCIL_BACK_PASS_DEPTH_PASS)};
 }
 
+void StateGuard::saveReadFramebuffer() {
+  if (std::exchange(savesReadFramebuffer_, true) || !restores()) return;
+  readFramebuffer_ = integer(gl_, READ_FRAMEBUFFER_BINDING);
+}
+
 void StateGuard::saveScissorBox() {
   if (scissorBox_ || !restores()) return;
   scissorBox_.emplace();
@@ -338,6 +344,7 @@ void StateGuard::leave() const {
   gl_.UseProgram(0);
   gl_.BindVertexArray(0);
   gl_.BindFramebuffer(DRAW_FRAMEBUFFER, 0);
+  if (savesReadFramebuffer_) gl_.BindFramebuffer(READ_FRAMEBUFFER, 0);
   gl_.BindRenderbuffer(RENDERBUFFER, 0);
   for (Uint i = 0; i < kUniformBindings; ++i)
     gl_.BindBufferBase(UNIFORM_BUFFER, i, 0);

@@ -34,6 +34,8 @@ public:
   void saveUnits(int count, const TextureKinds& kinds);
   /// Function, operation and mask of the stencil; its test is off in any case.
   void saveStencil();
+  /// The read framebuffer.
+  void saveReadFramebuffer();
   /// Of viewport 0; its test is off in any case.
   void saveScissorBox();
 
@@ -96,7 +98,8 @@ private:
   int unitCount_ = 1;                                // units 0 to unitCount_ - 1
   std::array<bool, kTargetCount> unitTargets_{true}; // of units from 1 on
   std::vector<Unit> units_;
-  bool savesStencil_ = false;
+  bool savesStencil_ = false, savesReadFramebuffer_ = false;
+  Int readFramebuffer_ = 0;
   std::array<StencilFace, 2> stencil_;
 };
 

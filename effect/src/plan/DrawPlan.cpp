@@ -55,6 +55,7 @@ public:
   void begin();
   void operator()(const Upload& upload);
   void operator()(const Clear& clear);
+  void operator()(const Copy& copy);
   void operator()(const Draw& draw);
   void operator()(const Skip& skip) { recorder_.skip(skip.pass, skip.why); }
   void end();
@@ -121,6 +122,18 @@ void Drawer::operator()(const Clear& clear) {
   } else {
     gl_.ClearBufferfv(gl::COLOR, 0, &clear.colour.x);
   }
+}
+
+void Drawer::operator()(const Copy& copy) {
+  const Viewport& from = copy.source;
+  endScissor();
+  bindFramebuffer(copy.to);
+  gl_.BindFramebuffer(gl::READ_FRAMEBUFFER, copy.from);
+  recorder_.run(copy.title, [&] {
+    gl_.BlitFramebuffer(from.x, from.y, from.x + from.width, from.y + from.height, copy.x, copy.y, copy.x + from.width,
+                        copy.y + from.height, gl::COLOR_BUFFER_BIT, gl::NEAREST);
+    return true;
+  });
 }
 
 void Drawer::operator()(const Draw& draw) {
@@ -281,6 +294,8 @@ Status resolvePrograms(FramePlan& plan, gl::ProgramCache& programs, Resolve what
 UnitsUsed unitsOf(const FramePlan& plan) {
   UnitsUsed used;
   used.count = 1; // tables are uploaded through the first
+  for (const Step& step : plan.steps)
+    used.copies = used.copies || std::holds_alternative<Copy>(step);
   forEachDraw(plan, [&](const Draw& draw) {
     used.scissor = used.scissor || !draw.isWhole();
     used.stencil = used.stencil || !draw.stencil.isOff();

@@ -22,7 +22,7 @@ struct DrawObjects {
 struct UnitsUsed {
   int count = 0;
   gl::TextureKinds kinds;
-  bool stencil = false, scissor = false;
+  bool stencil = false, scissor = false, copies = false;
 };
 
 /// Starts to build the plan's programs.

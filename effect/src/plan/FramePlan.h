@@ -78,6 +78,14 @@ struct Clear {
   glm::vec4 colour{0};
 };
 
+/// Copies a rectangle of one framebuffer's first colour into another's, bit by bit where they have one format.
+struct Copy {
+  std::string title;
+  gl::Uint from = 0, to = 0;
+  Viewport source;
+  int x = 0, y = 0; ///< of the target, from where on
+};
+
 /// A texture by the sampler that reads it.
 struct NamedTexture {
   std::string sampler;
@@ -118,7 +126,7 @@ struct Skip {
   std::string pass, why;
 };
 
-using Step = std::variant<Upload, Clear, Draw, Skip>;
+using Step = std::variant<Upload, Clear, Copy, Draw, Skip>;
 
 inline constexpr std::size_t kLargestBlock = std::max(
     {sizeof(blocks::FrameBlock), sizeof(blocks::LightBlock), sizeof(blocks::EpipolarBlock), sizeof(blocks::CopyBlock)});

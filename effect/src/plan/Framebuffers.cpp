@@ -37,11 +37,12 @@ bool Framebuffers::attach(const Entry& entry) const {
   gl::Sizei count = 1;
   for (gl::Enum i = 0; i < buffers.size(); ++i) {
     const gl::Uint texture = what.colours[i];
-    if (what.layer >= 0 && texture)
-      gl_.FramebufferTextureLayer(gl::DRAW_FRAMEBUFFER, gl::COLOR_ATTACHMENT0 + i, texture, 0, what.layer);
+    const gl::Enum point = gl::COLOR_ATTACHMENT0 + i;
+    if (what.layers[i] < 0 || !texture)
+      gl_.FramebufferTexture2D(gl::DRAW_FRAMEBUFFER, point, gl::TEXTURE_2D, texture, 0);
     else
-      gl_.FramebufferTexture2D(gl::DRAW_FRAMEBUFFER, gl::COLOR_ATTACHMENT0 + i, gl::TEXTURE_2D, texture, 0);
-    buffers[i] = texture ? gl::COLOR_ATTACHMENT0 + i : gl::NONE;
+      gl_.FramebufferTextureLayer(gl::DRAW_FRAMEBUFFER, point, texture, 0, what.layers[i]);
+    buffers[i] = texture ? point : gl::NONE;
     if (texture) count = static_cast<gl::Sizei>(i) + 1;
   }
   gl_.FramebufferRenderbuffer(gl::DRAW_FRAMEBUFFER, gl::STENCIL_ATTACHMENT, gl::RENDERBUFFER, what.stencil);

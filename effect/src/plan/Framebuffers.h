@@ -11,13 +11,19 @@
 
 namespace tyndall {
 
+/// A texture that is drawn into, or a layer of one.
+struct Surface {
+  gl::Uint texture = 0;
+  int layer = -1; ///< of a GL_TEXTURE_2D_ARRAY; -1: a GL_TEXTURE_2D
+};
+
 struct Attachments {
-  std::array<gl::Uint, 3> colours{}; ///< textures; 0: nothing is written to that output
-  gl::Uint stencil = 0;              ///< renderbuffer
-  bool engines = false;              ///< a texture of the engine's is among them
-  int layer = -1;                    ///< of the textures, if they are arrays; -1: they are none
+  std::array<gl::Uint, 3> colours{};     ///< textures; 0: nothing is written to that output
+  gl::Uint stencil = 0;                  ///< renderbuffer
+  bool engines = false;                  ///< a texture of the engine's is among them
+  std::array<int, 3> layers{-1, -1, -1}; ///< of the colours that are arrays
   bool operator==(const Attachments& other) const {
-    return colours == other.colours && stencil == other.stencil && engines == other.engines && layer == other.layer;
+    return colours == other.colours && stencil == other.stencil && engines == other.engines && layers == other.layers;
   }
 };
 

@@ -139,7 +139,7 @@ void PassPlanner::addTarget(const PassRow& row, const DrawOptions& options, Draw
 
 void PassPlanner::addOwnTarget(const PassRow& row, int layer, bool withStencil, Draw& draw) {
   Attachments attachments;
-  attachments.layer = layer;
+  attachments.layers = {layer, layer, layer};
   if (withStencil) attachments.stencil = allocator.stencil(frameTargets, extent);
   std::size_t count = 0;
   for (const Resource resource : row.writes) {
@@ -160,11 +160,13 @@ gl::Uint PassPlanner::destinationTarget(Blend blend, bool withStencil) {
 }
 
 gl::Uint PassPlanner::imageTarget(std::array<gl::Uint, 3> colours, bool withStencil) {
-  Attachments attachments{colours, withStencil ? allocator.stencil(frameTargets, extent) : 0, false};
-  const std::vector<gl::Uint>& engines = destination.engines;
-  attachments.engines = std::any_of(colours.begin(), colours.end(), [&](gl::Uint texture) {
-    return texture != 0 && std::find(engines.begin(), engines.end(), texture) != engines.end();
-  });
+  Attachments attachments{colours, withStencil ? allocator.stencil(frameTargets, extent) : 0};
+  for (const Surface& engines : destination.engines)
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+      if (colours[i] == 0 || colours[i] != engines.texture) continue;
+      attachments.engines = true;
+      attachments.layers[i] = engines.layer;
+    }
   return allocator.framebuffer(attachments, colours[0] != 0 && colours[0] == destination.colour ? "colour" : "output");
 }
 

@@ -35,10 +35,10 @@ private:
 struct Destination {
   gl::Uint inscatter = 0, transmittance = 0; ///< 0, 0: straight into colour
   gl::Uint colour = 0;
-  std::vector<gl::Uint> engines; ///< those of the textures that are not ours
-  bool composite = false;        ///< blend them, or show the debug view, into colour afterwards
-  bool copies = false;           ///< copy the inscatter, a texture of our own, to the engine's
-  float ceiling = 0;             ///< largest radiance that a light may add there
+  std::vector<Surface> engines; ///< those of the textures that are not ours, each another
+  bool composite = false;       ///< blend them, or show the debug view, into colour afterwards
+  bool copies = false;          ///< copy the inscatter, a texture of our own, to the engine's
+  float ceiling = 0;            ///< largest radiance that a light may add there
   bool direct() const { return inscatter == 0 && transmittance == 0; }
 };
 
@@ -92,6 +92,9 @@ public:
   gl::Uint drawnSlices = 0, drawnSegments = 0, drawnTiles = 0;
   bool drawsMarked = false; ///< the same: only pixels that the stencil has as changed
 
+  /// A framebuffer of these textures, of which some may be the engine's.
+  gl::Uint imageTarget(std::array<gl::Uint, 3> colours, bool withStencil);
+
   /// The texture of one of our resources, made if need be.
   gl::Uint textureOf(Resource resource);
 
@@ -111,7 +114,6 @@ private:
   void addVertices(Shape shape, bool changes, Draw& draw) const;
   void addBands(const PassRow& row, Draw& draw) const;
   Blend blendOf(Joining joining, bool adds) const;
-  gl::Uint imageTarget(std::array<gl::Uint, 3> colours, bool withStencil);
   gl::Uint destinationTarget(Blend blend, bool withStencil);
 };
 

@@ -69,10 +69,14 @@ float partOf(float most, std::size_t lights) { return most / static_cast<float>(
 
 FramePlanner::FramePlanner(const PlanInputs& inputs, Allocator& allocator, PlannedFrame& out)
     : in_(inputs), frame_(inputs.frame), allocator_(allocator), out_(out),
-      passes_(allocator, out.plan, inputs.targets, inputs.tuning) {
+      passes_(allocator, out.plan, inputs.targets, inputs.tuning), colour_{frame_.colour, frame_.colourLayer},
+      inscatter_{frame_.output.inscatter, frame_.output.layer},
+      transmittance_{frame_.output.transmittance, frame_.output.layer} {
   passes_.extent.width = frame_.viewport.width;
   passes_.extent.height = frame_.viewport.height;
   passes_.extent.wideColour = inputs.textures.colour.max >= kLargestFloat;
+  passes_.extent.engines = {inputs.textures.colour.format, inputs.textures.inscatter.format,
+                            inputs.textures.transmittance.format};
   passes_.variant.dualSource = inputs.tuning.compositing == Compositing::DualSource;
   passes_.paths.depthSamples = inputs.textures.depthSamples;
   passes_.paces = inputs.paces;
@@ -83,7 +87,15 @@ void FramePlanner::plan() {
   if (!changesColour(frame_)) out_.plan.skip("composite", "the medium neither scatters nor absorbs");
   const bool reuses =
       in_.eye && changesColour(frame_) && (!hasDebugView(frame_) || frame_.settings.debugView == DebugView::Redrawn);
-  if (!reuses) return planInFull();
+  makeStandIns(changesColour(frame_) || hasDebugView(frame_));
+  if (reuses)
+    planWithEye();
+  else
+    planInFull();
+  copyBack();
+}
+
+void FramePlanner::planWithEye() {
   passes_.eyeTargets = &in_.eye->targets;
   begin(keptDestination());
   const std::vector<DrawnLight> drawn = lightsToDraw(frame_, passes_.destination);
@@ -99,7 +111,7 @@ void FramePlanner::planInFull() {
   planDepth();
   if (showsSlices(frame_)) passes_.clear(Resource::DebugView, 0);
   planLights(frame_, passes_.destination, lightsToDraw(frame_, passes_.destination));
-  if (passes_.destination.copies) copyToOutput(passes_.destination.inscatter, output.inscatter);
+  if (passes_.destination.copies) copyToOutput(passes_.destination.inscatter, inscatter_.texture);
   if (!passes_.destination.composite) return;
   if (frame_.settings.debugView == DebugView::Redrawn) showRedrawn(Redraw::All, {});
   planPicture();
@@ -115,16 +127,16 @@ Destination FramePlanner::chooseDestination(bool changes) {
       output.inscatter ? in_.textures.inscatter.max : in_.textures.colour.max; // of where they are added up
   const bool apart = in_.sumsApart.value_or(sumIsCapped(frame_, most, lights));
   Destination to;
-  to.colour = frame_.colour;
-  to.engines = {frame_.colour, output.inscatter, output.transmittance};
+  to.colour = colour_.texture;
+  to.engines = engines();
   to.ceiling = partOf(most, lights);
   const bool spreads = frame_.settings.technique == Technique::Epipolar &&
                        std::isfinite(frame_.settings.spreadThreshold); // several times the time: no programs for it
   const bool blends = passes_.variant.dualSource;
   if (output.inscatter == 0 && output.transmittance == 0 && !hasDebugView(frame_) && !apart && !spreads && blends)
     return to;
-  to.inscatter = apart ? 0 : output.inscatter;
-  to.transmittance = output.transmittance;
+  to.inscatter = apart ? 0 : inscatter_.texture;
+  to.transmittance = transmittance_.texture;
   to.composite = hasDebugView(frame_) || (changes && frame_.colour != 0);
   to.copies = apart && output.inscatter != 0;
   if (!to.inscatter && (to.composite || to.copies)) {
@@ -228,8 +240,11 @@ void FramePlanner::planPicture() {
 
 void FramePlanner::planComposite() {
   if (passes_.variant.dualSource) return passes_.draw(Pass::Composite);
-  passes_.board[Resource::Image] = frame_.colour;
-  passes_.draw(Pass::CopyColour);
+  passes_.board[Resource::Image] = colour_.texture;
+  if (colour_.layer < 0)
+    passes_.draw(Pass::CopyColour);
+  else
+    copyColourLayer();
   passes_.draw(Pass::CompositeOfCopy);
 }
 

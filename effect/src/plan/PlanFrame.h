@@ -51,6 +51,7 @@ public:
 
 private:
   void planInFull();
+  void planWithEye();
   void planReused(const std::vector<DrawnLight>& drawn, RedrawPlan redraw);
   using Lights = std::vector<std::unique_ptr<LightPlanner>>;
   /// Of the picture: the pixels that are drawn anew, in tiles or as the stencil has them; neither: all.
@@ -77,12 +78,20 @@ private:
   void planInputs();
   void showRedrawn(Redraw picture, const Mask& mask);
   void copyToOutput(gl::Uint from, gl::Uint output);
+  void makeStandIns(bool drawsColour);
+  void standIn(Resource resource, const std::string& title, Surface& surface);
+  void copyBack();
+  void copyColourLayer();
+  gl::Uint framebufferOf(const Surface& engines, const std::string& field);
+  std::vector<Surface> engines() const;
 
   const PlanInputs& in_;
   const Frame& frame_;
   Allocator& allocator_;
   PlannedFrame& out_;
-  PassPlanner passes_; // of the whole frame
+  PassPlanner passes_;                         // of the whole frame
+  Surface colour_, inscatter_, transmittance_; // what is drawn into: the engine's, or what stands in for it
+  std::vector<Copy> copiesBack_;               // from there to the engine's
 };
 
 } // namespace tyndall

@@ -111,6 +111,10 @@ constexpr ResourceRow kRows[] = {
      "where the engine wants its own inscatter and a composite"},
     {"colour copy", kRgba32, kRgba16, wideColour, always, image, image, Lifetime::Frame,
      "what the composite blends with, where not by dual-source blending"},
+    {"stand-in colour", kGiven, kGiven, always, always, image, image, Lifetime::Frame,
+     "what stands in for the engine's, whose format it has"},
+    {"stand-in inscatter", kGiven, kGiven, always, always, image, image, Lifetime::Frame, "the same"},
+    {"stand-in transmittance", kGiven, kGiven, always, always, image, image, Lifetime::Frame, "the same"},
     {"slice table", kRgba32, kRgba32, always, always, table, table, Lifetime::Light,
      "the slices' geometry, computed in double"},
     {"sample ends", kR32, kR32, always, always, samples, samples, Lifetime::Compared,
@@ -199,6 +203,39 @@ static_assert(sizeof kRows / sizeof *kRows == static_cast<std::size_t>(Resource:
 int tilesOf(const Extent& e) { return unitsFor(e.width, kTile) * unitsFor(e.height, kTile); }
 
 const ResourceRow& rowOf(Resource resource) { return kRows[static_cast<std::size_t>(resource)]; }
+
+namespace {
+
+TexelFormat ofEngines(gl::Enum internal) {
+  switch (internal) {
+  case gl::RGBA32F:
+    return kRgba32;
+  case gl::RGB32F:
+    return {internal, gl::RGB, 12};
+  case gl::RGB16F:
+    return {internal, gl::RGB, 6};
+  case gl::R11F_G11F_B10F:
+    return {internal, gl::RGB, 4};
+  default:
+    return kRgba16;
+  }
+}
+
+} // namespace
+
+TexelFormat formatOf(Resource resource, E e) {
+  const ResourceRow& row = rowOf(resource);
+  switch (resource) {
+  case Resource::StandInColour:
+    return ofEngines(e.engines[0]);
+  case Resource::StandInInscatter:
+    return ofEngines(e.engines[1]);
+  case Resource::StandInTransmittance:
+    return ofEngines(e.engines[2]);
+  default:
+    return row.isWide(e) ? row.wide : row.narrow;
+  }
+}
 
 std::string samplerOf(Resource resource) {
   std::string name;

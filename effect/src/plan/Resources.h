@@ -30,6 +30,9 @@ enum class Resource {
   Inscatter,
   Transmittance,
   ColourCopy,
+  StandInColour, // for the engine's textures, in their formats (plan/StandIns.cpp)
+  StandInInscatter,
+  StandInTransmittance,
   SliceTable,
   SampleEnds,
   Marks,
@@ -93,14 +96,15 @@ struct Extent {
   int rowTexels = 0, rowRoom = 0; ///< texels of a row and rows that row textures have room for
   int drawnTexels = 0, rows = 0;  ///< those of this frame, and of the draw that is selected
   int treeLevels = 0;
-  Size mapCopy;                   ///< of a light's maps: texels of its largest view, and a layer for each
-  int curveCells = 0;             ///< texels per side of the map of Light::curves
-  int terms = 0, lowRankSets = 0; ///< Technique::LowRank
-  int tintLevel = 0;              ///< of the sums of tints: 0 is the finest
-  bool wideColour = true;         ///< the engine's colour is one of 32-bit floats
-  bool floatTint = true;          ///< tints of the glass map have more than 8 bits
-  bool coloured = true;           ///< three channels of radiance
-  bool floatRows = true;          ///< depths of rows in 32 bits, not in 16
+  Size mapCopy;                      ///< of a light's maps: texels of its largest view, and a layer for each
+  int curveCells = 0;                ///< texels per side of the map of Light::curves
+  int terms = 0, lowRankSets = 0;    ///< Technique::LowRank
+  int tintLevel = 0;                 ///< of the sums of tints: 0 is the finest
+  bool wideColour = true;            ///< the engine's colour is one of 32-bit floats
+  std::array<gl::Enum, 3> engines{}; ///< formats of the engine's colour and outputs
+  bool floatTint = true;             ///< tints of the glass map have more than 8 bits
+  bool coloured = true;              ///< three channels of radiance
+  bool floatRows = true;             ///< depths of rows in 32 bits, not in 16
   bool glass = false;
   bool shares = false; ///< a group of texels may be lit in part: filtered or glass
   bool hashes = false; ///< temporal reuse wants them of rows that have shares
@@ -135,6 +139,7 @@ struct ResourceRow {
 };
 
 const ResourceRow& rowOf(Resource resource);
+TexelFormat formatOf(Resource resource, const Extent& extent);
 
 /// Samples of a slice that are refined, and with reuse drawn anew, together.
 inline constexpr int kSegmentSamples = 16;

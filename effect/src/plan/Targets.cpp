@@ -19,12 +19,12 @@ bool sameSize(const Size& a, const Size& b) {
 Targets::~Targets() { dropOlderThan(-1); }
 
 gl::Uint Targets::get(Resource resource, const Extent& extent, int side) {
-  const ResourceRow& row = rowOf(resource);
-  const TexelFormat& format = row.isWide(extent) ? row.wide : row.narrow;
+  const TexelFormat format = formatOf(resource, extent);
   Slot slot;
   slot.resource = resource;
-  slot.size = row.size(extent);
+  slot.size = rowOf(resource).size(extent);
   slot.format = format.internal;
+  slot.channels = format.channels;
   slot.bytesPerTexel = format.bytes;
   slot.side = side;
   const gl::Uint known = find(slot);
@@ -66,8 +66,6 @@ bool Targets::make(Slot& slot) const {
     gl_.RenderbufferStorage(gl::RENDERBUFFER, slot.format, slot.size.width, slot.size.height);
     return errors.take() != gl::OUT_OF_MEMORY;
   }
-  const ResourceRow& row = rowOf(slot.resource);
-  const gl::Enum channels = slot.format == row.wide.internal ? row.wide.channels : row.narrow.channels;
   slot.texture = gl::Texture(gl_);
   gl_.ActiveTexture(gl::TEXTURE0);
   const gl::Enum target = slot.size.layers > 0 ? gl::TEXTURE_2D_ARRAY : gl::TEXTURE_2D;
@@ -75,11 +73,11 @@ bool Targets::make(Slot& slot) const {
   gl_.BindTexture(target, slot.texture.name());
   gl_.TexParameteri(target, gl::TEXTURE_MAX_LEVEL, 0);
   if (slot.size.layers > 0)
-    gl_.TexImage3D(target, 0, format, slot.size.width, slot.size.height, slot.size.layers, 0, channels, gl::FLOAT,
+    gl_.TexImage3D(target, 0, format, slot.size.width, slot.size.height, slot.size.layers, 0, slot.channels, gl::FLOAT,
                    nullptr);
   else
-    gl_.TexImage2D(target, 0, format, slot.size.width, slot.size.height, 0, channels, gl::FLOAT, nullptr);
-  gl::label(gl_, gl::TEXTURE, slot.texture.name(), row.name);
+    gl_.TexImage2D(target, 0, format, slot.size.width, slot.size.height, 0, slot.channels, gl::FLOAT, nullptr);
+  gl::label(gl_, gl::TEXTURE, slot.texture.name(), rowOf(slot.resource).name);
   return errors.take() != gl::OUT_OF_MEMORY;
 }
 

@@ -1,5 +1,7 @@
 #include "reuse/Keys.h"
 
+#include "optics/EngineDepth.h"
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -37,7 +39,8 @@ bool isStated(std::uint64_t version, std::uint64_t last) { return version != 0 &
 } // namespace
 
 bool isStated(const DepthContent& now, const DepthContent& last) {
-  return now.texture == last.texture && isStated(now.version, last.version);
+  return now.texture == last.texture && now.layer == last.layer && now.x == last.x && now.y == last.y &&
+         isStated(now.version, last.version);
 }
 
 bool isStated(const MapContent& now, const MapContent& last) {
@@ -45,7 +48,10 @@ bool isStated(const MapContent& now, const MapContent& last) {
          isStated(now.version, last.version);
 }
 
-DepthContent depthOf(const Frame& frame) { return {frame.depth.texture, frame.depth.version}; }
+DepthContent depthOf(const Frame& frame) {
+  const Rectangle shown = optics::depthRectangle(frame);
+  return {frame.depth.texture, frame.depth.layer, shown.x, shown.y, frame.depth.version};
+}
 
 MapContent mapsOf(const Light& light) {
   return {light.shadow.texture, light.glass.colour, light.glass.depth, light.shadow.version};

@@ -14,6 +14,7 @@ namespace tyndall {
 /// Which textures they are, and the version of what they hold: a version belongs to its texture.
 struct DepthContent {
   gl::Uint texture = 0;
+  int layer = -1, x = 0, y = 0; // where in it the image begins
   std::uint64_t version = 0;
 };
 struct MapContent {

@@ -50,8 +50,8 @@ bool isWhole(const RedrawPlan& redraw) {
 
 Destination FramePlanner::keptDestination() const {
   Destination to;
-  to.colour = frame_.colour;
-  to.engines = {frame_.colour, frame_.output.inscatter, frame_.output.transmittance};
+  to.colour = colour_.texture;
+  to.engines = engines();
   to.composite = frame_.colour != 0;
   to.ceiling = kLargestFloat / static_cast<float>(std::max<std::size_t>(frame_.lights.size(), 1));
   to.inscatter = to.transmittance = 1; // of our own: made once it is known what of them is kept
@@ -66,6 +66,8 @@ FrameKey FramePlanner::keyOf(const std::vector<DrawnLight>& drawn) const {
                {},
                {}};
   std::swap(key.jitter, key.block.jitter);
+  key.block.depthFirst = {}; // where in its texture the depth is says no more than which texture it is
+  key.block.depthLayer = 0;
   for (const DrawnLight& light : drawn) {
     key.drawn.push_back(light.index);
     key.lights.push_back({light.block, light.settings, in_.textures.shadows[light.index], light.variant,
@@ -100,8 +102,8 @@ void FramePlanner::planReused(const std::vector<DrawnLight>& drawn, RedrawPlan r
       next.lights.emplace_back(light.index, carriedOver(*eye.lights[light.index], light));
   next.count.mayReuse = redraw.mayReuse;
   out_.next = std::move(next);
-  copyToOutput(to.inscatter, frame_.output.inscatter);
-  copyToOutput(to.transmittance, frame_.output.transmittance);
+  copyToOutput(to.inscatter, inscatter_.texture);
+  copyToOutput(to.transmittance, transmittance_.texture);
   if (!to.composite) return;
   if (frame_.settings.debugView == DebugView::Redrawn) showRedrawn(picture, mask);
   planPicture();

@@ -174,6 +174,24 @@ void addReuse(std::vector<FrameCase>& all) {
   }
 }
 
+void addPlaces(std::vector<FrameCase>& all) {
+  const auto add = [&all](const std::string& name, FrameCase item, bool elsewhere, bool layered) {
+    item.name = name;
+    item.elsewhere = elsewhere;
+    item.layered = layered;
+    all.push_back(item);
+  };
+  const FrameCase lit = make({}, Technique::Epipolar, kColour, {kSun, kSpot}), all3 = make({}, Technique::Exact, kAll);
+  FrameCase copied = lit, part = reusing({}, Changes::Detect, 1, Motion::Box);
+  copied.tuning.compositing = Compositing::Copy;
+  add("elsewhere, two lights", lit, true, false);
+  add("elsewhere, all targets", all3, true, false);
+  add("layers, two lights", lit, false, true);
+  add("layers, all targets", all3, false, true);
+  add("layers, colour copied", copied, false, true);
+  add("layers elsewhere, detect", part, true, true);
+}
+
 // The masks and the composite that are not the table's in software, and all of one kind.
 void addTunings(std::vector<FrameCase>& all) {
   const auto add = [&all](const std::string& name, const FrameCase& like, const Tuning& tuning) {
@@ -244,6 +262,7 @@ const std::vector<FrameCase>& frameCases() {
     addLayouts(list);
     addViews(list);
     addReuse(list);
+    addPlaces(list);
     addTunings(list);
     return list;
   }();
@@ -268,7 +287,8 @@ bool canDraw(const FrameCase& frameCase) {
 
 Stage::Stage(const FrameCase& frameCase, int width, int height)
     : case_(frameCase), width_(width), height_(height), rig_(width, height),
-      values_(4 * static_cast<std::size_t>(width * height), kBefore) {
+      targetWidth_(width + (frameCase.elsewhere ? 9 : 0)), targetHeight_(height + (frameCase.elsewhere ? 7 : 0)),
+      values_(4 * static_cast<std::size_t>(targetWidth_ * targetHeight_ * (frameCase.layered ? 2 : 1)), kBefore) {
   Frame& frame = rig_.scene.frame;
   for (const LightKind kind : case_.lights) {
     Light light = lightOf(kind);
@@ -290,13 +310,7 @@ Stage::Stage(const FrameCase& frameCase, int width, int height)
       return depth[static_cast<std::size_t>(pixel)] * (1 - 0.1F * static_cast<float>(sample));
     });
   }
-  colour_ = rig_.scene.makeColour(GL_RGBA16F, values_);
-  inscatter_ = host::makeTexture2D(GL_RGBA32F, width_, height_);
-  transmittance_ = host::makeTexture2D(GL_RGBA32F, width_, height_);
-  const bool colour = case_.targets.colour || case_.view != DebugView::Composite;
-  frame.colour = colour ? colour_.name() : 0;
-  frame.output = {case_.targets.inscatter ? inscatter_.name() : 0,
-                  case_.targets.transmittance ? transmittance_.name() : 0};
+  makeTargets();
   if (case_.motion == Motion::Mesh) vertices_ = host::makeBuffer();
   frame.reuse.changes = case_.changes;
   frame.reuse.refreshFrames = case_.refreshFrames;
@@ -305,11 +319,32 @@ Stage::Stage(const FrameCase& frameCase, int width, int height)
   rewind();
 }
 
+void Stage::makeTargets() {
+  Frame& frame = rig_.scene.frame;
+  const auto makeTarget = [&](GLenum format) {
+    return case_.layered ? host::makeTextureArray(format, targetWidth_, targetHeight_, 2)
+                         : host::makeTexture2D(format, targetWidth_, targetHeight_);
+  };
+  colour_ = makeTarget(GL_RGBA16F);
+  inscatter_ = makeTarget(GL_RGBA32F);
+  transmittance_ = makeTarget(GL_RGBA32F);
+  const bool colour = case_.targets.colour || case_.view != DebugView::Composite;
+  frame.colour = colour ? colour_.name() : 0;
+  frame.output = {case_.targets.inscatter ? inscatter_.name() : 0,
+                  case_.targets.transmittance ? transmittance_.name() : 0, case_.layered ? 1 : -1};
+  frame.colourLayer = case_.layered ? 1 : -1;
+  if (case_.elsewhere) {
+    frame.viewport.x = 5;
+    frame.viewport.y = 3;
+  }
+}
+
 void Stage::show(int number) {
   Frame& frame = rig_.scene.frame;
   if (case_.layout) frame.lights.front() = plain_;
   if (case_.motion != Motion::None) rig_.setMoving({reuse::tumbling(number)});
   if (case_.layout) layMaps();
+  if (case_.elsewhere) frame.depth.rectangle = {1, 1, width_ - 1, height_ - 1};
   frame.objects.clear();
   if (case_.changes != Changes::Objects || case_.motion == Motion::None) return;
   if (case_.motion == Motion::Box)
@@ -357,8 +392,15 @@ void Stage::rest() {
 
 void Stage::fill() {
   for (const host::GlTexture* texture : {&colour_, &inscatter_, &transmittance_}) {
+    if (case_.layered) {
+      gl().BindTexture(GL_TEXTURE_2D_ARRAY, texture->name());
+      gl().TexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, targetWidth_, targetHeight_, 2, GL_RGBA, GL_FLOAT,
+                         values_.data());
+      gl().BindTexture(GL_TEXTURE_2D_ARRAY, 0);
+      continue;
+    }
     gl().BindTexture(GL_TEXTURE_2D, texture->name());
-    gl().TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_FLOAT, values_.data());
+    gl().TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, targetWidth_, targetHeight_, GL_RGBA, GL_FLOAT, values_.data());
   }
   gl().BindTexture(GL_TEXTURE_2D, 0);
 }
@@ -366,7 +408,8 @@ void Stage::fill() {
 TargetContents Stage::read() const {
   TargetContents contents;
   for (const host::GlTexture* texture : {&colour_, &inscatter_, &transmittance_})
-    contents.push_back(host::readColour(texture->name(), width_, height_));
+    contents.push_back(case_.layered ? host::readColourArray(texture->name(), targetWidth_, targetHeight_, 1)
+                                     : host::readColour(texture->name(), targetWidth_, targetHeight_));
   return contents;
 }
 

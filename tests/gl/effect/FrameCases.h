@@ -27,6 +27,8 @@ struct FrameCase {
   tyndall::DebugView view = tyndall::DebugView::Composite;
   bool glass = false, bilinear = false, curves = false, spread = false, bright = false, multisampled = false,
        versionedMesh = false;
+  bool elsewhere = false; ///< the viewport is a part of larger textures, and of the depth not each pixel has a texel
+  bool layered = false;   ///< targets are layers of arrays
   tyndall::Changes changes = tyndall::Changes::Unknown;
   Motion motion = Motion::None;
   int before = 0; ///< frames of the view that were drawn before the one that is looked at
@@ -78,6 +80,7 @@ public:
   TargetContents draw(tyndall::Effect& effect);
 
 private:
+  void makeTargets();
   void show(int number);
   void layMaps();
   tyndall::MovingObject reshape(int number);
@@ -85,6 +88,7 @@ private:
   FrameCase case_;
   int width_, height_;
   ShaftRig rig_;
+  int targetWidth_, targetHeight_;
   std::vector<float> values_; ///< of a target that nothing was drawn into
   int number_ = 0;
   tyndall::Light plain_; ///< the first light, with its maps in an array

@@ -21,6 +21,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/FaultyContext.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FaultyContextTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameCases.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/FrameRectanglesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameTexturesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameValuesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GlState.cpp
@@ -62,5 +63,6 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/TuningTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/TurningCameraTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ViewBorderTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/ViewportTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ViewTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/VirtualPrograms.cpp)
