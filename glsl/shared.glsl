@@ -16,7 +16,7 @@ UNIFORM_BLOCK(FrameBlock) {
   // farPoint[0] + p.x farPoint[1] + p.y farPoint[2] + t nearStep, p in pixels from the image's centre.
   vec4 farPoint[3];
   vec4 nearStep;
-  float depthOffset, depthScale;      // t = depthOffset + depthScale * depth
+  float depthOffset, depthScale;      // t = depthOffset + depthScale * depth, of what passes read (lib/engineDepth.glsl)
   int isOrthographic;
   float skyEnd;                       // ray length for the sky
   vec3 extinction;                    // sigma_t
@@ -25,10 +25,15 @@ UNIFORM_BLOCK(FrameBlock) {
   vec4 phaseShape[MAX_CONSTITUENTS];  // a, b, c, side: p_k ~ (1 + c cos^2) (a + b (1 -+ cos))^(-3/2), - for side > 0
   float lightCeiling;                 // largest radiance that a light may add,
   float colourMax, outputMax;         // that the colour's format holds, the output's
-  int isMultisampled;                 // the depth texture
+  int isMultisampled;                 // the depth texture; 2: an array
   int constituentCount;
   int depthSampleCount;               // of a pixel
   ivec2 frameSize;                    // of the image, pixels
+  ivec2 depthFirst, depthSize;        // the engine's depth: texels that show the image,
+  int depthLayer, depthEncoding;      // of an array; 0 window depth, 1 axial, 2 radial, 3 logarithmic,
+  float depthUnit, depthZero;         // distance of its values: depthUnit depth + depthZero; logarithmic: depthZero (2^(depthUnit depth) - 1)
+  vec3 depthAxis;                     // along which axial distance grows, unit
+  float skyRounding;                  // share of its distance by which a value of the far plane may lie before it
   vec2 jitter;                        // by how many pixels the image has been moved: rays are those of the camera at rest
   int framePadding0, framePadding1;
 };

@@ -69,6 +69,66 @@ Status checkCamera(const Camera& camera) {
   return checkMatrix("camera.clipFromView", camera.clipFromView);
 }
 
+std::string nameOf(DepthEncoding encoding) {
+  constexpr const char* kNames[] = {"Window", "Axial", "Radial", "Logarithmic"};
+  return kNames[static_cast<int>(encoding)];
+}
+
+Status checkDepthScale(const std::string& field, DepthEncoding encoding, const DepthScale& scale) {
+  const DepthScale none;
+  const bool isSet = scale.unit != none.unit || scale.offset != none.offset || scale.constant != none.constant ||
+                     scale.far != none.far;
+  switch (encoding) {
+  case DepthEncoding::Window:
+    return isSet ? invalid(field + "scale", "set", "encoding Window has none") : Status{};
+  case DepthEncoding::Logarithmic:
+    if (!(scale.constant > 0 && std::isfinite(scale.constant)))
+      return invalid(field + "scale.constant", text(scale.constant), "must be finite and > 0");
+    if (!(scale.far > 0 && std::isfinite(scale.far)))
+      return invalid(field + "scale.far", text(scale.far), "must be finite and > 0");
+    return {};
+  default:
+    if (scale.unit == 0 || !std::isfinite(scale.unit))
+      return invalid(field + "scale.unit", text(scale.unit), "must be finite and not 0");
+    if (!std::isfinite(scale.offset)) return invalid(field + "scale.offset", text(scale.offset), "must be finite");
+    return {};
+  }
+}
+
+Status checkSceneDepth(const Frame& frame) {
+  const SceneDepth& depth = frame.depth;
+  const DepthEncoding encoding = depth.encoding;
+  if (depth.layer < -1)
+    return invalid("depth.layer", std::to_string(depth.layer), "must be a layer, or -1 for a texture without");
+  const Rectangle& r = depth.rectangle;
+  const bool isGiven = r.x != 0 || r.y != 0 || r.width != 0 || r.height != 0;
+  if (isGiven && (r.x < 0 || r.y < 0 || r.width < 1 || r.height < 1))
+    return invalid("depth.rectangle",
+                   std::to_string(r.width) + " x " + std::to_string(r.height) + " at (" + std::to_string(r.x) + ", " +
+                       std::to_string(r.y) + ")",
+                   "must be at least 1 x 1 at (0, 0) or beyond, or all 0");
+  if (encoding < DepthEncoding::Window || encoding > DepthEncoding::Logarithmic)
+    return invalid("depth.encoding", std::to_string(static_cast<int>(encoding)), "must be one of the enumerators");
+  if ((encoding == DepthEncoding::Radial || encoding == DepthEncoding::Logarithmic) &&
+      optics::isOrthographic(optics::toGlm(frame.camera.clipFromView)))
+    return invalid("depth.encoding", nameOf(encoding), "needs a perspective camera");
+  return checkDepthScale("depth.", encoding, depth.scale);
+}
+
+Status checkViewport(const Frame& frame) {
+  const Rectangle& viewport = frame.viewport;
+  if (viewport.x < 0) return invalid("viewport.x", std::to_string(viewport.x), "must be >= 0");
+  if (viewport.y < 0) return invalid("viewport.y", std::to_string(viewport.y), "must be >= 0");
+  if (viewport.width < 1 || viewport.width > kMaxImageSize)
+    return invalid("viewport.width", std::to_string(viewport.width), "must be 1 to 16384");
+  if (viewport.height < 1 || viewport.height > kMaxImageSize)
+    return invalid("viewport.height", std::to_string(viewport.height), "must be 1 to 16384");
+  for (const auto& [field, layer] :
+       {std::pair{"colourLayer", frame.colourLayer}, std::pair{"output.layer", frame.output.layer}})
+    if (layer < -1) return invalid(field, std::to_string(layer), "must be a layer, or -1 for a texture without");
+  return {};
+}
+
 Status checkMedium(const Medium& medium) {
   if (medium.constituents.size() > kMaxConstituents)
     return invalid("medium.constituents", std::to_string(medium.constituents.size()) + " long",
@@ -263,13 +323,11 @@ Status checkReuse(const Frame& frame) {
 } // namespace
 
 Status checkValues(const Frame& frame) {
-  if (frame.viewport.width < 1 || frame.viewport.width > kMaxImageSize)
-    return invalid("viewport.width", std::to_string(frame.viewport.width), "must be 1 to 16384");
-  if (frame.viewport.height < 1 || frame.viewport.height > kMaxImageSize)
-    return invalid("viewport.height", std::to_string(frame.viewport.height), "must be 1 to 16384");
+  if (Status s = checkViewport(frame); !s) return s;
   if (frame.colour == 0 && frame.output.inscatter == 0 && frame.output.transmittance == 0)
     return invalid("colour", "0", "may only be left out if output names a texture to write");
   if (Status s = checkCamera(frame.camera); !s) return s;
+  if (Status s = checkSceneDepth(frame); !s) return s;
   if (frame.lights.size() > kMaxLights)
     return invalid("lights", std::to_string(frame.lights.size()) + " long", "at most 16 are allowed");
   for (std::size_t i = 0; i < frame.lights.size(); ++i)

@@ -9,6 +9,12 @@ namespace tyndall {
 
 inline constexpr float kLargestFloat = 3e38F; ///< radiance that a 32-bit float is taken to hold
 
+/// A texture of the engine's that is drawn into.
+struct TargetTexture {
+  gl::Enum format = 0;       ///< 0: there is none
+  float max = kLargestFloat; ///< largest radiance that the format holds
+};
+
 /// What the checks learn about a frame's textures.
 struct FrameTextures {
   struct Shadow {
@@ -17,9 +23,9 @@ struct FrameTextures {
     int curvesSize = 0; ///< texels per side of Light::curves, 0 without
   };
   int depthSamples = 1;
-  float colourMax = kLargestFloat; ///< largest radiance that the colour's format holds
-  float outputMax = kLargestFloat; ///< the same of the inscatter's output
-  std::vector<Shadow> shadows;     ///< one per light, 0 x 0 without a shadow map
+  float depthRounding = 0; ///< share of a distance by which the scene depth's format rounds it
+  TargetTexture colour, inscatter, transmittance;
+  std::vector<Shadow> shadows; ///< one per light, 0 x 0 without a shadow map
 };
 
 /// Checks numbers only: sizes, matrices, lights, medium, settings.

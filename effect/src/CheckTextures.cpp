@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -12,7 +13,7 @@ namespace {
 
 using namespace gl; // GL's enumerants
 
-enum class Use { Colour, Output, Depth, Tint, Curves };
+enum class Use { Colour, Output, Depth, EncodedDepth, Tint, Curves };
 
 struct Info {
   Int width = 0;
@@ -27,10 +28,16 @@ Status invalid(const std::string& field, Uint name, const std::string& rule) {
 }
 
 const char* targetName(Enum target) {
-  return target == TEXTURE_2D         ? "GL_TEXTURE_2D"
-         : target == TEXTURE_2D_ARRAY ? "GL_TEXTURE_2D_ARRAY"
-                                      : "GL_TEXTURE_2D_MULTISAMPLE";
+  return target == TEXTURE_2D               ? "GL_TEXTURE_2D"
+         : target == TEXTURE_2D_ARRAY       ? "GL_TEXTURE_2D_ARRAY"
+         : target == TEXTURE_2D_MULTISAMPLE ? "GL_TEXTURE_2D_MULTISAMPLE"
+                                            : "GL_TEXTURE_2D_MULTISAMPLE_ARRAY";
 }
+
+bool isMultisample(Enum target) { return target == TEXTURE_2D_MULTISAMPLE || target == TEXTURE_2D_MULTISAMPLE_ARRAY; }
+bool isArray(Enum target) { return target == TEXTURE_2D_ARRAY || target == TEXTURE_2D_MULTISAMPLE_ARRAY; }
+
+std::string textOf(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
 
 bool isDepthFormat(Int format) {
   switch (static_cast<Enum>(format)) {
@@ -107,10 +114,10 @@ Status inspect(const Functions& gl, const std::string& field, Uint name, Enum ta
   gl.GetTexLevelParameteriv(target, 0, TEXTURE_WIDTH, &info.width);
   gl.GetTexLevelParameteriv(target, 0, TEXTURE_HEIGHT, &info.height);
   gl.GetTexLevelParameteriv(target, 0, TEXTURE_INTERNAL_FORMAT, &info.format);
-  if (target == TEXTURE_2D_ARRAY) gl.GetTexLevelParameteriv(target, 0, TEXTURE_DEPTH, &info.layers);
-  if (target == TEXTURE_2D_MULTISAMPLE) gl.GetTexLevelParameteriv(target, 0, TEXTURE_SAMPLES, &info.samples);
+  if (isArray(target)) gl.GetTexLevelParameteriv(target, 0, TEXTURE_DEPTH, &info.layers);
+  if (isMultisample(target)) gl.GetTexLevelParameteriv(target, 0, TEXTURE_SAMPLES, &info.samples);
   if (info.width < 1) return invalid(field, name, "has no level 0");
-  if (target != TEXTURE_2D_MULTISAMPLE) {
+  if (!isMultisample(target)) {
     Int base = 0;
     gl.GetTexParameteriv(target, TEXTURE_BASE_LEVEL, &base);
     if (base != 0) return invalid(field, name, "GL_TEXTURE_BASE_LEVEL must be 0");
@@ -119,7 +126,10 @@ Status inspect(const Functions& gl, const std::string& field, Uint name, Enum ta
 }
 
 Status checkFormat(const std::string& field, Uint name, Use use, Int format) {
+  const bool encodes = format == static_cast<Int>(R16F) || format == static_cast<Int>(RG32F);
   if (use == Use::Depth && !isDepthFormat(format)) return invalid(field, name, "must have a depth format or R32F");
+  if (use == Use::EncodedDepth && !isDepthFormat(format) && !encodes)
+    return invalid(field, name, "must have a depth format, R32F, R16F or RG32F");
   if ((use == Use::Colour || use == Use::Output) && !isFloatColour(format))
     return invalid(field, name, "must have a float colour format (RGBA16F, RGBA32F, R11F_G11F_B10F, RGB16F, RGB32F)");
   if (use == Use::Tint && !isTint(format))
@@ -132,7 +142,7 @@ Status checkFormat(const std::string& field, Uint name, Use use, Int format) {
 // How many channels of a texture are read as they are stored. No sampler can undo what the texture's own parameters do
 // to them; a tint may come in any order.
 std::size_t channelsRead(Use use) {
-  return use == Use::Depth ? 1 : use == Use::Output ? 3 : use == Use::Curves ? 4 : 0;
+  return use == Use::Depth || use == Use::EncodedDepth ? 1 : use == Use::Output ? 3 : use == Use::Curves ? 4 : 0;
 }
 
 // The texture is bound.
@@ -147,7 +157,7 @@ Status checkChannels(const Functions& gl, const std::string& field, Uint name, E
     if (static_cast<Enum>(sources[i]) != kOwn[i].first)
       return invalid(field, name, std::string("GL_TEXTURE_SWIZZLE_") + kOwn[i].second);
   }
-  if (use != Use::Depth) return {};
+  if (use != Use::Depth && use != Use::EncodedDepth) return {};
   Int mode = DEPTH_COMPONENT;
   if (gl.stencilTexturing) gl.GetTexParameteriv(target, DEPTH_STENCIL_TEXTURE_MODE, &mode);
   if (static_cast<Enum>(mode) != DEPTH_COMPONENT)
@@ -167,25 +177,112 @@ Status check(const Functions& gl, const std::string& field, Uint name, Enum targ
 
 Status sized(const std::string& field, Uint name, const Info& info, int width, int height) {
   if (info.width == width && info.height == height) return {};
-  return invalid(field, name,
-                 "is " + std::to_string(info.width) + " x " + std::to_string(info.height) + ", must be " +
-                     std::to_string(width) + " x " + std::to_string(height));
+  return invalid(field, name, "is " + textOf(info.width, info.height) + ", must be " + textOf(width, height));
 }
 
-Status checkTarget(const Functions& gl, const Frame& frame, const std::string& field, Uint name, Use use,
-                   float& largest) {
-  if (name == 0) return {};
+// A texture, one of whose layers is named unless that is -1.
+struct Layered {
+  std::string field;
+  Uint name;
+  std::string layerField;
+  int layer;
+};
+
+Status checkLayered(const Functions& gl, const Layered& what, Enum one, Enum array, Use use, Info& info) {
+  const Enum target = what.layer < 0 ? one : array;
+  if (Status s = check(gl, what.field, what.name, target, use, info); !s) {
+    if (s.message.find("must be a GL_") != std::string::npos)
+      s.message += ", since " + what.layerField + " is " + std::to_string(what.layer);
+    return s;
+  }
+  if (what.layer < info.layers) return {};
+  return {StatusCode::InvalidFrame, "Frame::" + what.layerField + " is " + std::to_string(what.layer) + ": " +
+                                        what.field + " has " + std::to_string(info.layers) + " layers"};
+}
+
+Status within(const std::string& field, const Rectangle& r, const std::string& texture, const Info& info) {
+  const auto ends = [](int first, int length) { return std::int64_t{first} + length; };
+  if (ends(r.x, r.width) <= info.width && ends(r.y, r.height) <= info.height) return {};
+  return {StatusCode::InvalidFrame, "Frame::" + field + " is " + textOf(r.width, r.height) + " at (" +
+                                        std::to_string(r.x) + ", " + std::to_string(r.y) + "): must lie within " +
+                                        texture + ", which is " + textOf(info.width, info.height)};
+}
+
+// What is drawn into: the viewport lies within the first, and the others are as large.
+class TargetCheck {
+public:
+  TargetCheck(const Functions& gl, const Frame& frame) : gl_(gl), frame_(frame) {}
+
+  Status operator()(const Layered& target, Use use, TargetTexture& found) {
+    if (target.name == 0) return {};
+    Info info;
+    if (Status s = checkLayered(gl_, target, TEXTURE_2D, TEXTURE_2D_ARRAY, use, info); !s) return s;
+    found = {static_cast<Enum>(info.format), largestValue(info.format)};
+    if (first_.width == 0) {
+      first_ = info;
+      return within("viewport", frame_.viewport, target.field, info);
+    }
+    return sized(target.field, target.name, info, first_.width, first_.height);
+  }
+  const Info& size() const { return first_; }
+
+private:
+  const Functions& gl_;
+  const Frame& frame_;
+  Info first_;
+};
+
+Status checkTargets(const Functions& gl, const Frame& frame, FrameTextures& textures, Info& size) {
+  const Output& out = frame.output;
+  TargetCheck check(gl, frame);
+  if (Status s = check({"colour", frame.colour, "colourLayer", frame.colourLayer}, Use::Colour, textures.colour); !s)
+    return s;
+  if (Status s = check({"output.inscatter", out.inscatter, "output.layer", out.layer}, Use::Output, textures.inscatter);
+      !s)
+    return s;
+  if (Status s = check({"output.transmittance", out.transmittance, "output.layer", out.layer}, Use::Output,
+                       textures.transmittance);
+      !s)
+    return s;
+  size = check.size();
+  return {};
+}
+
+// Share of a distance by which a format rounds it, or the shader that makes it one.
+float roundingOf(Int format) {
+  switch (static_cast<Enum>(format)) {
+  case R16F:
+    return 5e-4F;
+  case DEPTH_COMPONENT16:
+    return 2e-5F;
+  default:
+    return 1e-6F;
+  }
+}
+
+Status checkDepth(const Functions& gl, const Frame& frame, const Info& targets, FrameTextures& textures) {
+  const SceneDepth& depth = frame.depth;
+  const Enum one = depth.multisampled ? TEXTURE_2D_MULTISAMPLE : TEXTURE_2D;
+  const Enum array = depth.multisampled ? TEXTURE_2D_MULTISAMPLE_ARRAY : TEXTURE_2D_ARRAY;
+  const Use use = depth.encoding == DepthEncoding::Window ? Use::Depth : Use::EncodedDepth;
   Info info;
-  if (Status s = check(gl, field, name, TEXTURE_2D, use, info); !s) return s;
-  largest = std::min(largest, largestValue(info.format));
-  return sized(field, name, info, frame.viewport.width, frame.viewport.height);
+  if (Status s = checkLayered(gl, {"depth.texture", depth.texture, "depth.layer", depth.layer}, one, array, use, info);
+      !s)
+    return s;
+  textures.depthSamples = depth.multisampled ? std::clamp(info.samples, 1, 16) : 1;
+  textures.depthRounding = roundingOf(info.format);
+  if (depth.rectangle.width > 0) return within("depth.rectangle", depth.rectangle, "depth.texture", info);
+  Status s = sized("depth.texture", depth.texture, info, targets.width, targets.height);
+  if (!s) s.message += ", or depth.rectangle say which texels show the viewport";
+  return s;
 }
 
 Status checkDistinct(const Frame& frame) {
   const Output& out = frame.output;
-  if (out.inscatter && (out.inscatter == frame.colour || out.inscatter == out.transmittance))
+  const bool mayShare = frame.colourLayer >= 0 && out.layer >= 0 && frame.colourLayer != out.layer; // layers of one
+  if (out.inscatter && ((out.inscatter == frame.colour && !mayShare) || out.inscatter == out.transmittance))
     return invalid("output.inscatter", out.inscatter, "must differ from colour and output.transmittance");
-  if (out.transmittance && out.transmittance == frame.colour)
+  if (out.transmittance && out.transmittance == frame.colour && !mayShare)
     return invalid("output.transmittance", out.transmittance, "must differ from colour");
   for (std::size_t i = 0; i < frame.lights.size(); ++i)
     if (const Uint glass = frame.lights[i].glass.colour;
@@ -238,21 +335,10 @@ Status checkShadow(const Functions& gl, const std::string& field, const Light& l
 } // namespace
 
 Status checkTextures(const Functions& gl, const Frame& frame, FrameTextures& textures) {
-  textures.colourMax = textures.outputMax = kLargestFloat;
-  float most = kLargestFloat; // a transmittance is at most 1
   if (Status s = checkDistinct(frame); !s) return s;
-  if (Status s = checkTarget(gl, frame, "colour", frame.colour, Use::Colour, textures.colourMax); !s) return s;
-  if (Status s = checkTarget(gl, frame, "output.inscatter", frame.output.inscatter, Use::Output, textures.outputMax);
-      !s)
-    return s;
-  if (Status s = checkTarget(gl, frame, "output.transmittance", frame.output.transmittance, Use::Output, most); !s)
-    return s;
-  Info depth;
-  const Enum target = frame.depth.multisampled ? TEXTURE_2D_MULTISAMPLE : TEXTURE_2D;
-  if (Status s = check(gl, "depth.texture", frame.depth.texture, target, Use::Depth, depth); !s) return s;
-  if (Status s = sized("depth.texture", frame.depth.texture, depth, frame.viewport.width, frame.viewport.height); !s)
-    return s;
-  textures.depthSamples = frame.depth.multisampled ? std::clamp(depth.samples, 1, 16) : 1;
+  Info targets;
+  if (Status s = checkTargets(gl, frame, textures, targets); !s) return s;
+  if (Status s = checkDepth(gl, frame, targets, textures); !s) return s;
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     textures.shadows.emplace_back();
     const std::string field = "lights[" + std::to_string(i) + "].";

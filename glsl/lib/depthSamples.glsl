@@ -1,11 +1,18 @@
-// The engine's depth buffer where it may be multisampled: one of two textures. Needs lib/camera.glsl.
+// The engine's depth buffer where it may be multisampled: one of three textures. Needs lib/camera.glsl and lib/engineDepth.glsl.
 
 uniform sampler2D sceneDepth;
 uniform sampler2DMS sceneDepthSamples;
+uniform sampler2DMSArray sceneDepthSampleLayers;
+
+float sampleAt(ivec2 texel, int index) {
+  return isMultisampled == 1 ? texelFetch(sceneDepthSamples, texel, index).r
+                             : texelFetch(sceneDepthSampleLayers, ivec3(texel, depthLayer), index).r;
+}
 
 // Where the pixel's camera ray ends for one of its samples.
 float sampleEndAt(int index) {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  float depth = isMultisampled != 0 ? texelFetch(sceneDepthSamples, pixel, index).r : texelFetch(sceneDepth, pixel, 0).r;
-  return max(rayEnd(unjittered(gl_FragCoord.xy), depth), 0.0);
+  vec2 position = unjittered(gl_FragCoord.xy);
+  float depth = isMultisampled != 0 ? plainDepth(position, sampleAt(depthTexel(pixel), index)) : texelFetch(sceneDepth, pixel, 0).r;
+  return max(rayEnd(position, depth), 0.0);
 }

@@ -26,6 +26,8 @@ Enum targetOf(Int type) {
   case INT_SAMPLER_2D_MULTISAMPLE:
   case UNSIGNED_INT_SAMPLER_2D_MULTISAMPLE:
     return TEXTURE_2D_MULTISAMPLE;
+  case SAMPLER_2D_MULTISAMPLE_ARRAY:
+    return TEXTURE_2D_MULTISAMPLE_ARRAY;
   default:
     return NONE;
   }

@@ -7,9 +7,10 @@ namespace tyndall::gl {
 
 namespace {
 
-constexpr std::array<Enum, 3> kTargets = {TEXTURE_2D, TEXTURE_2D_ARRAY, TEXTURE_2D_MULTISAMPLE};
-constexpr std::array<Enum, 3> kTargetBindings = {TEXTURE_BINDING_2D, TEXTURE_BINDING_2D_ARRAY,
-                                                 TEXTURE_BINDING_2D_MULTISAMPLE};
+constexpr std::array<Enum, 4> kTargets = {TEXTURE_2D, TEXTURE_2D_ARRAY, TEXTURE_2D_MULTISAMPLE,
+                                          TEXTURE_2D_MULTISAMPLE_ARRAY};
+constexpr std::array<Enum, 4> kTargetBindings = {TEXTURE_BINDING_2D, TEXTURE_BINDING_2D_ARRAY,
+                                                 TEXTURE_BINDING_2D_MULTISAMPLE, TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY};
 
 // Whatever would keep a full-screen triangle from writing exactly its colours. Clip distances are added per context.
 constexpr std::array<Enum, 12> kCapabilities = {CULL_FACE,           DEPTH_TEST,         STENCIL_TEST,
@@ -120,7 +121,7 @@ void StateGuard::save() {
   saveViewport();
   activeUnit_ = integer(gl_, ACTIVE_TEXTURE);
   gl_.ActiveTexture(TEXTURE0);
-  saveUnit(0, {true, true, true});
+  saveUnit(0, {true, true, true, true});
 }
 
 // What a pass expects, of what is not so.
@@ -195,7 +196,7 @@ void StateGuard::restoreUniformBindings() const {
 void StateGuard::saveUnits(int count, bool arrays, bool multisampled) {
   const int first = unitCount_;
   unitCount_ = std::max(count, first);
-  unitTargets_ = {true, unitTargets_[1] || arrays, unitTargets_[2] || multisampled};
+  unitTargets_ = {true, unitTargets_[1] || arrays, unitTargets_[2] || multisampled, unitTargets_[3] || multisampled};
   if (!restores()) return;
   for (int i = first; i < unitCount_; ++i) {
     gl_.ActiveTexture(TEXTURE0 + static_cast<Enum>(i));
@@ -205,7 +206,7 @@ void StateGuard::saveUnits(int count, bool arrays, bool multisampled) {
 }
 
 // The unit is active.
-void StateGuard::saveUnit(int index, const std::array<bool, 3>& targets) {
+void StateGuard::saveUnit(int index, const std::array<bool, 4>& targets) {
   units_.resize(static_cast<std::size_t>(index) + 1);
   Unit& unit = units_.back();
   for (std::size_t t = 0; t < kTargets.size(); ++t)

@@ -34,7 +34,7 @@ public:
 
 private:
   struct Unit {
-    std::array<Int, 3> textures{}; // one per target of kTargets
+    std::array<Int, 4> textures{}; // one per target of kTargets
     Int sampler = 0;
   };
   struct UniformBinding {
@@ -54,7 +54,7 @@ private:
 
   bool restores() const { return mode_ == StateMode::Restore; }
   void save();
-  void saveUnit(int index, const std::array<bool, 3>& targets);
+  void saveUnit(int index, const std::array<bool, 4>& targets);
   void saveUniformBindings();
   void saveDrawBuffers();
   void saveViewport();
@@ -87,7 +87,7 @@ private:
   std::array<UniformBinding, kUniformBindings> uniformBindings_;
   std::array<DrawBuffer, kDrawBuffers> drawBuffers_;
   int unitCount_ = 1; // units 0 to unitCount_ - 1
-  std::array<bool, 3> unitTargets_{true, false, false};
+  std::array<bool, 4> unitTargets_{true, false, false, false};
   std::vector<Unit> units_;
   bool savesStencil_ = false;
   std::array<StencilFace, 2> stencil_;

@@ -1,5 +1,6 @@
 #include "optics/Blocks.h"
 
+#include "optics/EngineDepth.h"
 #include "optics/Matrices.h"
 
 #include <algorithm>
@@ -156,9 +157,9 @@ blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
   block.outputMax = sizes.outputMax;
   block.constituentCount = static_cast<int>(shares.size());
   block.depthSampleCount = sizes.depthSamples;
-  block.isMultisampled = frame.depth.multisampled ? 1 : 0;
   block.frameSize = {frame.viewport.width, frame.viewport.height};
   block.jitter = {frame.camera.jitter[0], frame.camera.jitter[1]};
+  setEngineDepth(block, frame, sizes.depthRounding);
   return block;
 }
 

@@ -9,10 +9,11 @@ namespace tyndall::optics {
 
 /// What the blocks need of a frame beyond the public structs.
 struct FrameSizes {
-  int depthSamples = 1;   ///< samples per pixel of the scene depth
-  float lightCeiling = 0; ///< largest radiance that a light may add
-  float colourMax = 0;    ///< largest radiance that Frame::colour's format holds
-  float outputMax = 0;    ///< the same of Output::inscatter
+  int depthSamples = 1;    ///< samples per pixel of the scene depth
+  float lightCeiling = 0;  ///< largest radiance that a light may add
+  float colourMax = 0;     ///< largest radiance that Frame::colour's format holds
+  float outputMax = 0;     ///< the same of Output::inscatter
+  float depthRounding = 0; ///< share of a distance by which the depth's format rounds it
 };
 
 /// The point that shader positions are relative to: the eye, or the clip volume's centre if orthographic.

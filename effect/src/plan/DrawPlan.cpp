@@ -36,6 +36,11 @@ Status resolve(Draw& draw, gl::ProgramCache& programs, Resolve what) {
   return {};
 }
 
+// Takes no sampler.
+bool isMultisampled(gl::Enum target) {
+  return target == gl::TEXTURE_2D_MULTISAMPLE || target == gl::TEXTURE_2D_MULTISAMPLE_ARRAY;
+}
+
 template <typename Function>
 void forEachDraw(const FramePlan& plan, Function&& function) {
   for (const Step& step : plan.steps)
@@ -167,7 +172,6 @@ void Drawer::activate(gl::Uint unit) {
   active_ = unit;
 }
 
-// A multisampled texture takes no sampler.
 void Drawer::bind(const Draw::Reading& reading) {
   units_.resize(std::max<std::size_t>(units_.size(), reading.unit + 1));
   samplers_.resize(std::max<std::size_t>(samplers_.size(), reading.unit + 1), 0);
@@ -175,7 +179,7 @@ void Drawer::bind(const Draw::Reading& reading) {
   if (bound.target == reading.target && bound.texture == reading.texture) return;
   activate(reading.unit);
   gl_.BindTexture(reading.target, reading.texture);
-  const gl::Uint sampler = reading.target == gl::TEXTURE_2D_MULTISAMPLE ? 0 : objects_.nearestSampler;
+  const gl::Uint sampler = isMultisampled(reading.target) ? 0 : objects_.nearestSampler;
   if (bound.target == 0 || samplers_[reading.unit] != sampler) gl_.BindSampler(reading.unit, sampler);
   samplers_[reading.unit] = sampler;
   bound = {reading.target, reading.texture};
@@ -190,7 +194,7 @@ void Drawer::bind(const std::vector<Draw::Reading>& readings) {
     const Draw::Reading& reading = readings[i];
     const bool isPlain = reading.target == gl::TEXTURE_2D;
     textures.push_back(reading.texture || !isPlain ? reading.texture : objects_.emptyTexture);
-    samplers.push_back(reading.target == gl::TEXTURE_2D_MULTISAMPLE ? 0 : objects_.nearestSampler);
+    samplers.push_back(isMultisampled(reading.target) ? 0 : objects_.nearestSampler);
     atOnce = atOnce && textures.back() != 0;
     bound = bound && units_[i].target == reading.target && units_[i].texture == textures[i];
   }
@@ -285,7 +289,7 @@ UnitsUsed unitsOf(const FramePlan& plan) {
     for (const Draw::Reading& reading : draw.textures) {
       used.count = std::max(used.count, static_cast<int>(reading.unit) + 1);
       used.arrays = used.arrays || reading.target == gl::TEXTURE_2D_ARRAY;
-      used.multisampled = used.multisampled || reading.target == gl::TEXTURE_2D_MULTISAMPLE;
+      used.multisampled = used.multisampled || isMultisampled(reading.target);
     }
   });
   return used;

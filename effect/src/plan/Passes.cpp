@@ -100,13 +100,18 @@ std::vector<PassRow> makeRows() {
   using S = Shape;
   constexpr Joining kSumOfLights = Joining::SumOfLights, kSumOfDraws = Joining::SumOfDraws;
   return {
+      Row(Pass::PlainDepth, "plain depth", "passes/plainDepth.frag")
+          .reads({R::EngineDepth})
+          .writes({R::PlainDepth})
+          .options({{"DEPTH_SOURCE", {0, 1, 2, 3}}})
+          .sameForAllLights(),
       Row(Pass::Exact, "exact", "passes/exact.frag", S::Image)
-          .readsIfThere({R::SceneDepth, R::SceneDepthSamples}) // one of the two
+          .readsIfThere({R::SceneDepth, R::SceneDepthSamples, R::SceneDepthSampleLayers}) // one of the three
           .walksTexels()
           .into(Into::Destination)
           .joins(kSumOfLights),
       Row(Pass::Transmittance, "transmittance", "passes/transmittance.frag", S::Image)
-          .readsIfThere({R::SceneDepth, R::SceneDepthSamples}) // one of the two
+          .readsIfThere({R::SceneDepth, R::SceneDepthSamples, R::SceneDepthSampleLayers}) // one of the three
           .into(Into::Destination)
           .joins(kSumOfLights),
       Row(Pass::Composite, "composite", "passes/composite.frag")
@@ -262,7 +267,7 @@ std::vector<PassRow> makeRows() {
           .into(Into::Destination)
           .joins(kSumOfLights),
       Row(Pass::FixupAllTexels, "fix-up", "passes/exact.frag", S::Image)
-          .readsIfThere({R::SceneDepth, R::SceneDepthSamples}) // one of the two
+          .readsIfThere({R::SceneDepth, R::SceneDepthSamples, R::SceneDepthSampleLayers}) // one of the three
           .walksTexels()
           .into(Into::Destination)
           .joins(kSumOfLights),

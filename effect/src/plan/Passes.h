@@ -12,6 +12,7 @@ namespace tyndall {
 
 enum class Pass {
   // Of the whole frame.
+  PlainDepth,
   Exact,
   Transmittance,
   Composite,

@@ -3,6 +3,7 @@
 #include "DebugViews.h"
 #include "SampleBudget.h"
 #include "optics/Blocks.h"
+#include "optics/EngineDepth.h"
 #include "optics/Jitter.h"
 #include "optics/LightVolume.h"
 #include "passes/Epipolar.h"
@@ -71,12 +72,11 @@ FramePlanner::FramePlanner(const PlanInputs& inputs, Allocator& allocator, Plann
       passes_(allocator, out.plan, inputs.targets, inputs.tuning) {
   passes_.extent.width = frame_.viewport.width;
   passes_.extent.height = frame_.viewport.height;
-  passes_.extent.wideColour = inputs.textures.colourMax >= kLargestFloat;
+  passes_.extent.wideColour = inputs.textures.colour.max >= kLargestFloat;
   passes_.variant.dualSource = inputs.tuning.compositing == Compositing::DualSource;
   passes_.paths.depthSamples = inputs.textures.depthSamples;
   passes_.paces = inputs.paces;
   out.plan.bandMilliseconds = inputs.tuning.bandMilliseconds;
-  passes_.board[frame_.depth.multisampled ? Resource::SceneDepthSamples : Resource::SceneDepth] = frame_.depth.texture;
 }
 
 void FramePlanner::plan() {
@@ -96,6 +96,7 @@ void FramePlanner::planInFull() {
   const Output& output = frame_.output;
   if (!changesColour(frame_) && !hasDebugView(frame_) && output.inscatter == 0 && output.transmittance == 0) return;
   begin(chooseDestination(changesColour(frame_)));
+  planDepth();
   if (showsSlices(frame_)) passes_.clear(Resource::DebugView, 0);
   planLights(frame_, passes_.destination, lightsToDraw(frame_, passes_.destination));
   if (passes_.destination.copies) copyToOutput(passes_.destination.inscatter, output.inscatter);
@@ -110,7 +111,8 @@ Destination FramePlanner::chooseDestination(bool changes) {
       static_cast<std::size_t>(std::count_if(frame_.lights.begin(), frame_.lights.end(), [&](const Light& light) {
         return reasonToSkip(frame_, light, true, in_.ahead).empty();
       }));
-  const float most = output.inscatter ? in_.textures.outputMax : in_.textures.colourMax; // of where they are added up
+  const float most =
+      output.inscatter ? in_.textures.inscatter.max : in_.textures.colour.max; // of where they are added up
   const bool apart = in_.sumsApart.value_or(sumIsCapped(frame_, most, lights));
   Destination to;
   to.colour = frame_.colour;
@@ -133,10 +135,26 @@ Destination FramePlanner::chooseDestination(bool changes) {
   return to;
 }
 
+// What passes read as scene depth: the engine's texture, or one depth a pixel out of it.
+void FramePlanner::planDepth() {
+  const SceneDepth& depth = frame_.depth;
+  Board& board = passes_.board;
+  if (depth.multisampled)
+    board[depth.layer < 0 ? Resource::SceneDepthSamples : Resource::SceneDepthSampleLayers] = depth.texture;
+  if (depth.multisampled && !usesSlices(frame_)) return;
+  board[Resource::SceneDepth] = board[Resource::EngineDepth] = depth.texture;
+  if (optics::isPlain(frame_)) return;
+  DrawOptions source;
+  source.options = {{"DEPTH_SOURCE", (depth.layer < 0 ? 0 : 1) + (depth.multisampled ? 2 : 0)}};
+  passes_.draw(Pass::PlainDepth, source);
+  board[Resource::SceneDepth] = board[Resource::PlainDepth];
+}
+
 void FramePlanner::begin(const Destination& destination) {
   passes_.destination = destination;
-  passes_.frameBlock = out_.plan.add(optics::frameBlock(
-      frame_, {in_.textures.depthSamples, destination.ceiling, in_.textures.colourMax, in_.textures.outputMax}));
+  passes_.frameBlock =
+      out_.plan.add(optics::frameBlock(frame_, {in_.textures.depthSamples, destination.ceiling, in_.textures.colour.max,
+                                                in_.textures.inscatter.max, in_.textures.depthRounding}));
 }
 
 std::vector<DrawnLight> FramePlanner::lightsToDraw(const Frame& frame, const Destination& destination) {

@@ -13,7 +13,9 @@ namespace tyndall {
 enum class Resource {
   // Given: the engine's, or what a pass is told to read.
   SceneDepth,
-  SceneDepthSamples, // in its place
+  SceneDepthSamples,      // in its place
+  SceneDepthSampleLayers, // likewise, of an array
+  EngineDepth,            // whatever plain depth is made of
   ShadowMap,
   GlassColour,
   GlassDepth,
@@ -21,6 +23,7 @@ enum class Resource {
   Image,
   // The effect's own.
   Empty,
+  PlainDepth, // as SceneDepth
   Inscatter,
   Transmittance,
   ColourCopy,

@@ -84,6 +84,7 @@ void FramePlanner::planReused(const std::vector<DrawnLight>& drawn, RedrawPlan r
   KeptNext next{
       {redraw.key, depthOf(frame_), frame_.reuse.frame, eye.last && eye.last->hasDepth, frame_.camera}, {}, {}};
   Redraw picture = redraw.picture;
+  if (picture != Redraw::Nothing) planDepth();
   Mask mask;
   if (picture == Redraw::Nothing) {
     out_.plan.skip("lights", "nothing has changed: the last frame's picture is shown");

@@ -28,7 +28,7 @@ struct Slot {
 };
 
 const std::vector<Slot> kSlots = {
-    {"colour", [](Frame& f) -> std::uint32_t& { return f.colour; }, Use::Target, 0},
+    {"colour", [](Frame& f) -> std::uint32_t& { return f.colour; }, Use::Target, 0, true},
     {"output.inscatter", [](Frame& f) -> std::uint32_t& { return f.output.inscatter; }, Use::Target, 0},
     {"output.transmittance", [](Frame& f) -> std::uint32_t& { return f.output.transmittance; }, Use::Target, 0},
     {"depth.texture", [](Frame& f) -> std::uint32_t& { return f.depth.texture; }, Use::Depth, 0},
