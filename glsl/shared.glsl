@@ -35,7 +35,8 @@ UNIFORM_BLOCK(FrameBlock) {
   vec3 depthAxis;                     // along which axial distance grows, unit
   float skyRounding;                  // share of its distance by which a value of the far plane may lie before it
   vec2 jitter;                        // by how many pixels the image has been moved: rays are those of the camera at rest
-  int framePadding0, framePadding1;
+  int depthSample;                    // of several a pixel, the one that is drawn; -1: none
+  int framePadding0;
 };
 
 // A view of a light's shadow map.

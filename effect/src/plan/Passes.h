@@ -19,6 +19,8 @@ enum class Pass {
   CopyColour,
   CompositeOfCopy,
   CopyToOutput,
+  SampleDepth,
+  Edges,
   // A light's rows and slices (passes/Epipolar.cpp has the picture).
   SampleEnds,
   RowDepths,

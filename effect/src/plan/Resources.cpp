@@ -19,6 +19,7 @@ constexpr Format kGiven{}, kR8{gl::R8, gl::RED, 1}, kR32{gl::R32F, gl::RED, 4}, 
 constexpr int kPartTexels = 256, kChunk = 64;
 
 bool always(E) { return true; }
+bool sampledDepth(E e) { return e.sampledDepth; }
 bool wideColour(E e) { return e.wideColour; }
 bool coloured(E e) { return e.coloured; }
 bool floatRows(E e) { return e.floatRows; }
@@ -92,8 +93,10 @@ constexpr ResourceRow kRows[] = {
     {"curves", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "smoke and hair: Light::curves"},
     {"image", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "what a pass copies or shows"},
     {"empty", kR32, kR32, always, always, one, one, Lifetime::Frame, "what a sampler reads that has nothing to read"},
-    {"plain depth", kR32, kR32, always, always, image, image, Lifetime::Frame,
+    {"plain depth", kRg32, kR32, sampledDepth, always, image, image, Lifetime::Frame,
      "the scene depth out of a larger, smaller, layered, multisampled or encoded one"},
+    {"sample depth", kR32, kR32, always, always, image, image, Lifetime::Frame,
+     "the same: of one sample, where a pixel's differ"},
     {"inscatter", kRgba32, kRgba32, always, always, image, image, Lifetime::Eye,
      "where the engine wants its own transmittance and a composite"},
     {"transmittance", kRgba32, kRgba32, always, always, image, image, Lifetime::Eye,
