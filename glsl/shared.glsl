@@ -31,13 +31,14 @@ UNIFORM_BLOCK(FrameBlock) {
   int constituentCount;
   int depthSampleCount;               // of a pixel
   ivec2 frameSize;                    // of the image, pixels
-  vec2 jitter;                        // by how many pixels the image has been moved: rays are those of the camera at rest
-  int framePadding0, framePadding1;
   ivec2 depthFirst, depthSize;        // the engine's depth: texels that show the image,
   int depthLayer, depthEncoding;      // of an array; 0 window depth, 1 axial, 2 radial, 3 logarithmic,
   float depthUnit, depthZero;         // distance of its values: depthUnit depth + depthZero; logarithmic: depthZero (2^(depthUnit depth) - 1)
   vec3 depthAxis;                     // along which axial distance grows, unit
   float skyRounding;                  // share of its distance by which a value of the far plane may lie before it
+  vec2 jitter;                        // by how many pixels the image has been moved: rays are those of the camera at rest
+  int depthSample;                    // of several a pixel, the one that is drawn; -1: none
+  int framePadding0;
 };
 
 // A view of a light's shadow map.

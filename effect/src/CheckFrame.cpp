@@ -314,9 +314,8 @@ Status checkView(const Frame& frame) {
   if (view != DebugView::Composite && frame.colour == 0)
     return invalid("settings.debugView", row->name, "needs Frame::colour, which the view replaces");
   if (row->shown == Shown::Picture) return {};
-  if (technique == Technique::Exact || frame.depth.multisampled)
-    return invalid("settings.debugView", row->name,
-                   "needs slices: technique Tree, LowRank or Epipolar, and a depth that is not multisampled");
+  if (technique == Technique::Exact)
+    return invalid("settings.debugView", row->name, "needs slices: technique Tree, LowRank or Epipolar");
   if (row->shown == Shown::Samples && technique != Technique::Epipolar)
     return invalid("settings.debugView", row->name, "needs samples: technique Epipolar");
   return {};

@@ -26,8 +26,8 @@ constexpr bool beginsRow(std::size_t offset) { return offset % 16 == 0; }
 constexpr bool isAligned(std::size_t offset) { return offset % 8 == 0; } // a pair
 static_assert(beginsRow(offsetof(FrameBlock, extinction)) && beginsRow(offsetof(FrameBlock, phaseWeight)));
 static_assert(beginsRow(offsetof(FrameBlock, phaseShape)) && isAligned(offsetof(FrameBlock, frameSize)));
-static_assert(beginsRow(offsetof(FrameBlock, jitter)));
 static_assert(beginsRow(offsetof(FrameBlock, depthFirst)) && beginsRow(offsetof(FrameBlock, depthAxis)));
+static_assert(isAligned(offsetof(FrameBlock, jitter)));
 static_assert(beginsRow(offsetof(MapView, margin)) && beginsRow(offsetof(MapView, curveDepth)));
 static_assert(beginsRow(offsetof(LightBlock, lightDirection)) && beginsRow(offsetof(LightBlock, lightPosition)));
 static_assert(beginsRow(offsetof(MapView, origin)) && beginsRow(offsetof(LightBlock, boundary)));

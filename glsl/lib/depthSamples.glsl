@@ -1,6 +1,6 @@
 // The engine's depth buffer where it may be multisampled: one of three textures. Needs lib/camera.glsl and lib/engineDepth.glsl.
 
-uniform sampler2D sceneDepth;
+#include "lib/depth.glsl"
 uniform sampler2DMS sceneDepthSamples;
 uniform sampler2DMSArray sceneDepthSampleLayers;
 

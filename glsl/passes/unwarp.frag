@@ -1,11 +1,16 @@
 // Unwarp: from slices to pixels, bilinear over two slices and two samples each, each sample weighted by how well its
 // distance agrees with the pixel's (Yusov 2013, "Transformation from epipolar to rectangular coordinates"). A pixel that no
 // sample serves, or whose samples differ by a share of the picture's mean, is discarded, so that its stencil stays for the
-// fix-up. Reads the slice table, epipolarInscatter, the scene depth and, with SPREAD 1 (never with COMPOSITE), meanLight. Writes inscatter and transmittance as exact.frag does.
+// fix-up. Reads the slice table, epipolarInscatter, the scene depth and, with SPREAD 1 (never with COMPOSITE), meanLight; SAMPLES 1: the plain
+// depth as sceneDepth and a multisampled one. Writes inscatter and transmittance as exact.frag does.
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
 #include "lib/depth.glsl"
+#if SAMPLES
+#include "lib/engineDepth.glsl"
+#include "lib/depthSamples.glsl"
+#endif
 #include "lib/slices.glsl"
 #define Light vec3
 #include "lib/stored.glsl"
@@ -55,17 +60,18 @@ void addSlice(int slice, float sliceWeight, vec2 p, float end, inout Sums sums) 
   }
 }
 
-void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
-  vec2 position = unjittered(gl_FragCoord.xy);
-  float end = max(rayEnd(position, depthAt(pixel)), 0.0);
-  float place = sliceCoordinate(position), f = fract(place);
+// Next to a lamp inscatter and its shadows change from pixel to pixel; at it every direction has a limit of its own.
+bool isNearLight(vec2 p) {
+  const float kNear = LIGHT_KIND == 0 ? EPIPOLE_GAP : LAMP_PIXELS;
+  vec2 fromEpipole = p * epipole.z - epipole.xy;
+  float near = (epipole.z > 0.0 ? kNear : EPIPOLE_GAP) * epipole.z;
+  return dot(fromEpipole, fromEpipole) < near * near;
+}
+
+// Light of the ray up to an end, as textures hold it, and its weight: less than leastWeight where no sample serves.
+vec4 lightTo(float end, Ray ray, vec2 position, float place) {
+  float f = fract(place), coordinate = endCoordinate(ray, min(end, visibleEnd));
   ivec2 slices = neighbourSlices(place);
-  Ray ray = cameraRay(position);
-  float coordinate = endCoordinate(ray, min(end, visibleEnd));
-#if SPREAD
-  spreadUnit = radianceUnit(ray) / max(texelFetch(meanLight, ivec2(0), 0).r, 1e-37);
-#endif
   Sums sums = Sums(vec4(0.0), vec4(0.0), 0.0, 0.0);
   addSlice(slices.x, 1.0 - f, position, coordinate, sums);
   addSlice(slices.y, f, position, coordinate, sums);
@@ -74,17 +80,44 @@ void main() {
   float apart = abs(sums.plain.a - coordinate * sums.plainWeight), allowed = 0.125 * endThreshold * sums.plainWeight;
   float oneSurface = clamp(2.0 - apart / max(allowed, 1e-20), 0.0, 1.0);
   vec4 sum = mix(sums.agreeing, vec4(sums.plain.rgb, sums.plainWeight), oneSurface);
-  // Next to a lamp inscatter and its shadows change from pixel to pixel; at it every direction has a limit of its own.
-  const float kNear = LIGHT_KIND == 0 ? EPIPOLE_GAP : LAMP_PIXELS;
-  vec2 fromEpipole = position * epipole.z - epipole.xy;
-  float near = (epipole.z > 0.0 ? kNear : EPIPOLE_GAP) * epipole.z;
-  if (dot(fromEpipole, fromEpipole) < near * near) discard;
-  if (!(sum.w >= leastWeight && sum.w > 0.0)) discard;
 #if SPREAD
   // Samples that agree with the pixel but not with each other: edges of shadows run between them.
   float least = spreadThreshold * sums.agreeing.w, brightest = brightestOf(lightOf(sums.agreeing.rgb) * spreadUnit);
-  if (sums.squares * sums.agreeing.w - brightest * brightest > least * least) discard;
+  if (sums.squares * sums.agreeing.w - brightest * brightest > least * least) return vec4(-1.0);
 #endif
-  outInscatter = vec4(min(radianceUnit(ray) * lightOf(sum.rgb / sum.w), vec3(lightCeiling)), 0.0);
-  outTransmittance = vec4(transmittanceTo(end), 1.0);
+  return sum;
+}
+
+bool isServed(vec4 light) { return light.w >= leastWeight && light.w > 0.0; }
+
+vec3 radianceOf(vec4 light, Ray ray) { return min(radianceUnit(ray) * lightOf(light.rgb / light.w), vec3(lightCeiling)); }
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec2 position = unjittered(gl_FragCoord.xy);
+  float end = max(rayEnd(position, depthAt(pixel)), 0.0), place = sliceCoordinate(position);
+  Ray ray = cameraRay(position);
+#if SPREAD
+  spreadUnit = radianceUnit(ray) / max(texelFetch(meanLight, ivec2(0), 0).r, 1e-37);
+#endif
+#if SAMPLES
+  // Where they show several surfaces, the mean over all samples; elsewhere there is one depth.
+  int count = texelFetch(sceneDepth, pixel, 0).g != 0.0 ? depthSampleCount : 1;
+  vec3 radiance = vec3(0.0), transmittance = vec3(0.0);
+  bool served = true;
+  for (int k = 0; k < count; ++k) {
+    float own = count > 1 ? sampleEndAt(k) : end;
+    vec4 light = lightTo(own, ray, position, place);
+    served = served && isServed(light);
+    radiance += radianceOf(light, ray) / float(count);
+    transmittance += transmittanceTo(own) / float(count);
+  }
+  if (isNearLight(position) || !served) discard;
+#else
+  vec4 light = lightTo(end, ray, position, place);
+  if (isNearLight(position) || !isServed(light)) discard;
+  vec3 radiance = radianceOf(light, ray), transmittance = transmittanceTo(end);
+#endif
+  outInscatter = vec4(radiance, 0.0);
+  outTransmittance = vec4(transmittance, 1.0);
 }

@@ -32,6 +32,7 @@ const Names<bool> kSwitch = {{"on", true}, {"off", false}};
 constexpr int kMaxFrame = 999999;
 constexpr int kMaxRepeat = 10000;
 constexpr int kMaxSupersample = 8;
+constexpr int kMaxHalton = 1024;
 constexpr const char* kFramePlace = "%04d";
 
 constexpr const char* kFooter = R"(
@@ -151,6 +152,11 @@ void addView(CLI::App& app, Options& options, LookAt& lookAt) {
       ->type_name("WxH");
   app.add_option("--supersample", options.supersample, "render N x N pixels for each one of the picture (default 1)")
       ->check(CLI::Range(1, kMaxSupersample));
+  app.add_option("--msaa", options.msaa, "samples of a pixel, of colour and depth (default 1)")
+      ->check(CLI::IsMember({1, 2, 4, 8}));
+  app.add_option("--halton", options.halton,
+                 "jitter the camera, from frame to frame, by N points of Halton's in a pixel (default 0: none)")
+      ->check(CLI::Range(0, kMaxHalton));
   chooseFrom(kViews, app.add_option("--view", options.view, "a debug view instead of the composite, see below"));
 }
 

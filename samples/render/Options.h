@@ -38,6 +38,8 @@ struct Options {
   int width = 1280;
   int height = 720;
   int supersample = 1; ///< pixels rendered for one of the picture, along each side
+  int msaa = 1;        ///< samples of a pixel
+  int halton = 0;      ///< places in a pixel that frames are rendered at in turn; 0: its centre
   std::string profile = "high";
   std::string technique = "epipolar";
   std::optional<int> slices;  ///< none: by the profile

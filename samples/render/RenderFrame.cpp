@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
+#include <gl/CameraView.h>
 #include <gl/Driver.h>
 #include <gl/Gl.h>
 #include <gl/ReadBack.h>
@@ -34,6 +35,20 @@ host::RenderTargetOptions targetOptions(const Options& options) {
   target.height = renderedHeight(options);
   target.colourFormat = GL_RGBA32F;
   return target;
+}
+
+host::RenderTargetOptions sampledOptions(const Options& options) {
+  host::RenderTargetOptions target = targetOptions(options);
+  target.samples = options.msaa;
+  return target;
+}
+
+/// Digits of a number after the point, in reverse.
+double radicalInverse(int number, int base) {
+  double result = 0, place = 1;
+  for (; number > 0; number /= base)
+    result += (place /= base) * (number % base);
+  return result;
 }
 
 tyndall::Settings settingsOf(const Options& options) {
@@ -95,7 +110,7 @@ FrameRenderer::FrameRenderer(const Options& options)
     : options_(options),
       context_(host::Context::create(options.context ? *options.context : host::defaultContextKind(), {options.debug})),
       scene_(host::loadScene(options.scene)), notes_(scene_.notes),
-      sceneRenderer_(std::make_unique<host::SceneRenderer>(scene_)), surfaces_(targetOptions(options)),
+      sceneRenderer_(std::make_unique<host::SceneRenderer>(scene_)), surfaces_(sampledOptions(options)),
       composite_(targetOptions(options)),
       inscatter_(host::makeTexture2D(GL_RGBA32F, surfaces_.width(), surfaces_.height())),
       transmittance_(host::makeTexture2D(GL_RGBA32F, surfaces_.width(), surfaces_.height())) {
@@ -117,6 +132,7 @@ FrameRenderer::FrameRenderer(const Options& options)
   frame_.viewport.height = surfaces_.height();
   frame_.colour = composite_.colour();
   frame_.depth.texture = surfaces_.depth();
+  frame_.depth.multisampled = surfaces_.multisampled();
   frame_.output.inscatter = inscatter_.name();
   frame_.output.transmittance = transmittance_.name();
   frame_.settings = settingsOf(options);
@@ -218,6 +234,28 @@ void FrameRenderer::addMovedObjects(const std::vector<glm::dmat4>& worldFromNode
         host::movedBox(host::smokeBounds(scene_, emitter, lastSeconds_), host::smokeBounds(scene_, emitter, seconds)));
 }
 
+// As for temporal antialiasing: after the shadow views were fitted, which do not follow.
+void FrameRenderer::jitterCamera(int frame) {
+  if (options_.halton == 0) return;
+  const int place = frame % options_.halton + 1;
+  tyndall::Camera& camera = frame_.camera;
+  camera.jitter = {radicalInverse(place, 2) - 0.5, radicalInverse(place, 3) - 0.5};
+  const glm::dvec3 ndc(2 * camera.jitter[0] / frame_.viewport.width, 2 * camera.jitter[1] / frame_.viewport.height, 0);
+  camera.clipFromView = host::toMat4(host::translation(ndc) * host::fromMat4(camera.clipFromView));
+}
+
+// One of a pixel's samples, for the picture's Z.
+void FrameRenderer::resolveDepth() const {
+  if (!surfaces_.multisampled()) return;
+  const GladGLContext& functions = host::gl();
+  functions.BindFramebuffer(GL_READ_FRAMEBUFFER, surfaces_.framebuffer());
+  functions.BindFramebuffer(GL_DRAW_FRAMEBUFFER, composite_.framebuffer());
+  functions.Disable(GL_SCISSOR_TEST);
+  functions.BlitFramebuffer(0, 0, frame_.viewport.width, frame_.viewport.height, 0, 0, frame_.viewport.width,
+                            frame_.viewport.height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  functions.BindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
 void FrameRenderer::restoreColour() const {
   const GladGLContext& functions = host::gl();
   functions.BindFramebuffer(GL_READ_FRAMEBUFFER, surfaces_.framebuffer());
@@ -278,9 +316,11 @@ void FrameRenderer::draw(int frame) {
   frame_.lights = makeLights(worldFromNode, notes);
   const glm::vec3 sky = host::skyOf(scene_, worldFromNode, frame_.lights, notes);
   renderShadowMaps(worldFromNode, seconds, notes);
+  jitterCamera(frame);
   const bool isFirst = lastPose_.empty();
   if (isFirst) addOnce(notes, host::adviceOn(scene_, worldFromNode, frame_.camera));
   sceneRenderer_->renderScene(worldFromNode, frame_.camera, frame_.lights, surfaces_, sky, &frame_.medium);
+  resolveDepth();
   if (isFirst) noteEnclosures(worldFromNode, notes);
   if (!options_.out.empty()) noteCutRadiance(notes);
   addOnce(notes_, notes);
@@ -307,8 +347,9 @@ Picture FrameRenderer::readPicture() const {
   picture.composite = host::readColour(composite_.colour(), frame_.viewport.width, frame_.viewport.height);
   picture.inscatter = host::readColour(inscatter_.name(), frame_.viewport.width, frame_.viewport.height);
   picture.transmittance = host::readColour(transmittance_.name(), frame_.viewport.width, frame_.viewport.height);
-  picture.z = viewZ(host::readDepth(surfaces_.depth(), frame_.viewport.width, frame_.viewport.height), frame_.camera,
-                    options_.reversedDepth);
+  picture.z = viewZ(host::readDepth((surfaces_.multisampled() ? composite_ : surfaces_).depth(), frame_.viewport.width,
+                                    frame_.viewport.height),
+                    frame_.camera, options_.reversedDepth);
   throwGlErrors();
   return picture;
 }

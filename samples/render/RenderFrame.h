@@ -70,6 +70,8 @@ private:
   void noteCutRadiance(host::Notes& notes) const;
   void addMovedObjects(const std::vector<glm::dmat4>& worldFromNode, double seconds);
   bool hasVolumes() const;
+  void jitterCamera(int frame);
+  void resolveDepth() const;
   void restoreColour() const;
   double renderEffect(const tyndall::Frame& frame); ///< milliseconds
   Measurement measure();

@@ -40,6 +40,7 @@ void setEngineDepth(blocks::FrameBlock& block, const Frame& frame, float roundin
   const SceneDepth& depth = frame.depth;
   const Rectangle shown = depthRectangle(frame);
   block.isMultisampled = !depth.multisampled ? 0 : depth.layer < 0 ? 1 : 2;
+  block.depthSample = -1;
   block.depthFirst = {shown.x, shown.y};
   block.depthSize = {shown.width, shown.height};
   block.depthLayer = depth.layer;

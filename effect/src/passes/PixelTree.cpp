@@ -3,6 +3,7 @@
 #include "optics/Blocks.h"
 #include "optics/LowRank.h"
 #include "passes/Rows.h"
+#include "passes/Samples.h"
 #include "passes/TintSums.h"
 
 #include <utility>
@@ -34,19 +35,27 @@ Tables planLowRank(LightPlanner& light) {
   return {true, usesTintSums(light)};
 }
 
+// All pixels; of several samples those that show one surface, and the others as a mean over them.
+void drawPixels(LightPlanner& light, Pass pass, const gl::Definitions& options) {
+  if (!light.extent.sampledDepth) return light.drawLight(pass, {options});
+  light.drawLight(pass, {options, kOnlyUnserved});
+  samples::planMean(light, pass, {options, kOnlyServed});
+}
+
 } // namespace
 
 void plan(LightPlanner& light) {
   const Tables tables = planLowRank(light);
+  if (light.extent.sampledDepth) samples::planEdges(light);
   for (int draw = 0; draw < light.draws(); ++draw) {
     light.selectDraw(draw);
     rows::plan(light, tables.tintSums ? rows::Walk::TintSums : rows::Walk::Lit);
     if (tables.tintSums) tint_sums::plan(light);
     light.plan.marched += light.pixels();
     if (tables.lowRank)
-      light.drawLight(Pass::PixelsByLowRank, {tables.tintSums ? gl::Definitions{{"TINT_SUMS", 1}} : gl::Definitions{}});
+      drawPixels(light, Pass::PixelsByLowRank, tables.tintSums ? gl::Definitions{{"TINT_SUMS", 1}} : gl::Definitions{});
     else
-      light.drawLight(Pass::PixelTree);
+      drawPixels(light, Pass::PixelTree, {});
   }
 }
 

@@ -1,6 +1,7 @@
 #include "passes/Unwarp.h"
 
 #include "passes/Rows.h"
+#include "passes/Samples.h"
 
 #include <cmath>
 
@@ -8,13 +9,18 @@ namespace tyndall::passes::unwarp {
 
 namespace {
 
+void drawMarched(LightPlanner& light, Pass pass, const DrawOptions& options) {
+  if (light.extent.sampledDepth) return samples::planMean(light, pass, options);
+  light.drawLight(pass, options);
+}
+
 // The few pixels that no sample serves: along their slice's row. With several draws only the last one's rows are at
 // hand, and to make them all again would take longer than every texel does.
 void planUnserved(LightPlanner& light, const Counting& counting) {
   const DrawOptions options{{}, kOnlyUnserved, counting};
   const bool ahead = !light.allocator.makes(); // another camera has other slices
   if (light.draws() > 1 || ahead) light.drawLight(Pass::FixupAllTexels, options);
-  if (light.draws() == 1 || ahead) light.drawLight(Pass::FixupAlongRow, options);
+  if (light.draws() == 1 || ahead) drawMarched(light, Pass::FixupAlongRow, options);
 }
 
 // Those pixels and the many between slices that disagree: along their own line.
@@ -23,7 +29,7 @@ void planBetweenSlices(LightPlanner& light) {
     light.selectDraw(draw);
     if (light.draws() > 1) rows::plan(light); // only the last draw's rows are at hand
     rows::planPairs(light);
-    light.drawLight(Pass::FixupOwnLine, {{}, kOnlyUnserved});
+    drawMarched(light, Pass::FixupOwnLine, {{}, kOnlyUnserved});
   }
 }
 
@@ -45,8 +51,9 @@ void plan(LightPlanner& light) {
   const bool whole = light.drawnTiles == 0 && !light.drawsMarked; // else how many pixels are drawn is not known
   light.selectDraw(0);
   light.clearStencil();
-  light.draw(Pass::Unwarp,
-             {{{"SPREAD", spread ? 1 : 0}}, kMarkServed, whole ? Counting{Count::Served, light.pixels()} : Counting{}});
+  light.draw(Pass::Unwarp, {{{"SPREAD", spread ? 1 : 0}, {"SAMPLES", light.extent.sampledDepth ? 1 : 0}},
+                            kMarkServed,
+                            whole ? Counting{Count::Served, light.pixels()} : Counting{}});
   const gl::Uint tiles = light.drawnTiles;
   if (light.tuning.fixup == Masking::Tiles) light.drawnTiles = planTiles(light);
   if (spread)

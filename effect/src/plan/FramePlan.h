@@ -43,7 +43,7 @@ struct Stencil {
   }
 };
 inline constexpr Stencil kMarkServed{0, 0, Stencil::kServed}, kMarkChanged{0, 0, Stencil::kChanged},
-    kOnlyUnserved{Stencil::kServed};
+    kOnlyUnserved{Stencil::kServed}, kOnlyServed{Stencil::kServed, Stencil::kServed};
 
 struct Viewport {
   int x = 0, y = 0, width = 0, height = 0;

@@ -71,6 +71,10 @@ public:
   std::uint64_t pixels() const {
     return static_cast<std::uint64_t>(extent.width) * static_cast<std::uint64_t>(extent.height);
   }
+  /// What plainDepth.frag is told of the engine's texture.
+  gl::Definitions depthSource() const {
+    return {{"DEPTH_SOURCE", (depthLayer < 0 ? 0 : 1) + (extent.sampledDepth ? 2 : 0)}};
+  }
   void skip(const std::string& pass, const std::string& why) { plan.skip(titleOf(pass), why); }
 
   Allocator& allocator;
@@ -82,6 +86,7 @@ public:
   Extent extent;
   LightVariant variant;
   RayPaths paths;
+  int depthLayer = -1;              ///< of the scene depth; -1: it is no array
   const BandPaces* paces = nullptr; ///< what is known of earlier frames' draws
   Destination destination;
   std::string name;       ///< of the light, for statistics; else empty

@@ -142,6 +142,16 @@ std::vector<PassRow> makeRows() {
           .writes({R::ShadowCopy, R::GlassColourCopy, R::GlassDepthCopy})
           .options({{"SOURCE", {0, 1, 2, 3}}, {"GLASS", {0, 1}}})
           .sameForAllLights(),
+      Row(Pass::SampleDepth, "sample depth", "passes/plainDepth.frag", S::Image)
+          .reads({R::EngineDepth})
+          .writes({R::SampleDepth})
+          .options({{"DEPTH_SOURCE", {2, 3}}})
+          .sameForAllLights(),
+      Row(Pass::Edges, "edges", "passes/edges.frag", S::Image)
+          .reads({R::SceneDepth})
+          .into(Into::Destination)
+          .joins(kSumOfLights)
+          .sameForAllLights(),
       Row(Pass::SampleEnds, "sample ends", "passes/sampleEnds.frag", S::Slices)
           .reads({R::SceneDepth, R::SliceTable})
           .readsIfThere({R::LastSampleEnds})
@@ -257,9 +267,10 @@ std::vector<PassRow> makeRows() {
           .writes({R::EpipolarInscatter}),
       Row(Pass::Unwarp, "unwarp", "passes/unwarp.frag", S::Image)
           .reads({R::SceneDepth, R::SliceTable, R::EpipolarInscatter, R::MeanLight})
+          .readsIfThere({R::SceneDepthSamples, R::SceneDepthSampleLayers}) // one of the two
           .into(Into::Destination)
           .joins(kSumOfLights)
-          .options({{"SPREAD", {0, 1}}})
+          .options({{"SPREAD", {0, 1}}, {"SAMPLES", {0, 1}}})
           .when(isUnwarped),
       Row(Pass::Unserved, "unserved", "passes/red.frag", S::Image).writes({R::Unserved}).sameForAllLights(),
       Row(Pass::UnservedTiles, "unserved tiles", "passes/unservedTiles.frag")

@@ -20,6 +20,8 @@ enum class Pass {
   CompositeOfCopy,
   CopyToOutput,
   MapCopy, // of a light, where passes do not read its maps as they are
+  SampleDepth,
+  Edges,
   // A light's rows and slices (passes/Epipolar.cpp has the picture).
   SampleEnds,
   RowDepths,

@@ -18,10 +18,7 @@ namespace {
 
 bool hasDebugView(const Frame& frame) { return frame.settings.debugView != DebugView::Composite; }
 bool showsSlices(const Frame& frame) { return rowOf(frame.settings.debugView)->shown != Shown::Picture; }
-// Slices take one depth per pixel: a multisampled frame is rendered by exact.
-bool usesSlices(const Frame& frame) {
-  return frame.settings.technique != Technique::Exact && !frame.depth.multisampled;
-}
+bool usesSlices(const Frame& frame) { return frame.settings.technique != Technique::Exact; }
 bool changesColour(const Frame& frame) { return optics::extinctionOf(frame.medium) != glm::dvec3(0); }
 
 // Why a light has nothing to add; empty if it has.
@@ -78,6 +75,8 @@ FramePlanner::FramePlanner(const PlanInputs& inputs, Allocator& allocator, Plann
   passes_.extent.engines = {inputs.textures.colour.format, inputs.textures.inscatter.format,
                             inputs.textures.transmittance.format};
   passes_.variant.dualSource = inputs.tuning.compositing == Compositing::DualSource;
+  passes_.extent.sampledDepth = frame_.depth.multisampled;
+  passes_.depthLayer = frame_.depth.layer;
   passes_.paths.depthSamples = inputs.textures.depthSamples;
   passes_.paces = inputs.paces;
   out.plan.bandMilliseconds = inputs.tuning.bandMilliseconds;
@@ -157,7 +156,7 @@ void FramePlanner::planDepth() {
   board[Resource::SceneDepth] = board[Resource::EngineDepth] = depth.texture;
   if (optics::isPlain(frame_)) return;
   DrawOptions source;
-  source.options = {{"DEPTH_SOURCE", (depth.layer < 0 ? 0 : 1) + (depth.multisampled ? 2 : 0)}};
+  source.options = passes_.depthSource();
   passes_.draw(Pass::PlainDepth, source);
   board[Resource::SceneDepth] = board[Resource::PlainDepth];
 }

@@ -22,6 +22,7 @@ constexpr Format kGiven{}, kR8{gl::R8, gl::RED, 1}, kR32{gl::R32F, gl::RED, 4}, 
 constexpr int kPartTexels = 256, kChunk = 64;
 
 bool always(E) { return true; }
+bool sampledDepth(E e) { return e.sampledDepth; }
 bool wideColour(E e) { return e.wideColour; }
 bool floatTint(E e) { return e.floatTint; }
 bool coloured(E e) { return e.coloured; }
@@ -99,8 +100,10 @@ constexpr ResourceRow kRows[] = {
     {"curves", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "smoke and hair: Light::curves"},
     {"image", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "what a pass copies or shows"},
     {"empty", kR32, kR32, always, always, one, one, Lifetime::Frame, "what a sampler reads that has nothing to read"},
-    {"plain depth", kR32, kR32, always, always, image, image, Lifetime::Frame,
+    {"plain depth", kRg32, kR32, sampledDepth, always, image, image, Lifetime::Frame,
      "the scene depth out of a larger, smaller, layered, multisampled or encoded one"},
+    {"sample depth", kR32, kR32, always, always, image, image, Lifetime::Frame,
+     "the same: of one sample, where a pixel's differ"},
     {"shadow copy", kR32, kR32, always, always, mapCopy, mapCopy, Lifetime::Light,
      "shadow maps that are cubes, hold other than window depth, or are seldom so: a layer for each view"},
     {"glass colour copy", kRgba32, kRgba8, floatTint, glass, mapCopy, mapCopy, Lifetime::Light, "the same of glass"},

@@ -23,7 +23,8 @@ enum class Resource {
   Image,
   // The effect's own.
   Empty,
-  PlainDepth, // as SceneDepth
+  PlainDepth,  // as SceneDepth
+  SampleDepth, // likewise, for a while
   ShadowCopy,
   GlassColourCopy,
   GlassDepthCopy,
@@ -100,6 +101,7 @@ struct Extent {
   int curveCells = 0;                ///< texels per side of the map of Light::curves
   int terms = 0, lowRankSets = 0;    ///< Technique::LowRank
   int tintLevel = 0;                 ///< of the sums of tints: 0 is the finest
+  bool sampledDepth = false;         ///< the scene depth has several samples a pixel
   bool wideColour = true;            ///< the engine's colour is one of 32-bit floats
   std::array<gl::Enum, 3> engines{}; ///< formats of the engine's colour and outputs
   bool floatTint = true;             ///< tints of the glass map have more than 8 bits

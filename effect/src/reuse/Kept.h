@@ -38,7 +38,7 @@ struct KeptPicture {
   DepthContent depth;
   std::uint64_t frame = 0; ///< Reuse::frame
   bool hasDepth = false;   ///< LastDepth is its depth
-  Camera camera;           ///< without its jitter, which it names
+  Camera camera = {};      ///< without its jitter, which it names
 };
 
 /// What a frame leaves for the next one.

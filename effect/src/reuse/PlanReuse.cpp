@@ -170,7 +170,7 @@ void FramePlanner::planRedrawn(bool comparesEnds, bool comparesRows) {
   eye.makeRoomFor(frame_.lights.size());
   RedrawPlan redraw;
   redraw.key = keyOf(drawn);
-  redraw.picture = Redraw::Part;
+  redraw.picture = frame_.depth.multisampled ? Redraw::All : Redraw::Part;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     const Light& light = frame_.lights[drawn[i].index];
     LightRedraw part{drawn[i].index, redraw.key.lights[i], mapsOf(light),

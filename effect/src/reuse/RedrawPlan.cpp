@@ -33,8 +33,7 @@ LightRedraw planLight(const KeptEye& eye, const FrameKey& key, std::size_t i, co
 } // namespace
 
 bool drawsInParts(const Frame& frame) {
-  return frame.settings.technique == Technique::Epipolar && !frame.depth.multisampled &&
-         !std::isfinite(frame.settings.spreadThreshold);
+  return frame.settings.technique == Technique::Epipolar && !std::isfinite(frame.settings.spreadThreshold);
 }
 
 RedrawPlan planRedraw(const KeptEye& eye, FrameKey key, const Frame& frame) {
@@ -53,7 +52,8 @@ RedrawPlan planRedraw(const KeptEye& eye, FrameKey key, const Frame& frame) {
     all = all || redraw == Redraw::All || (redraw == Redraw::Part && !inParts);
   }
   plan.mayReuse = eye.last.has_value();
-  plan.picture = all || moved ? Redraw::All : part ? Redraw::Part : Redraw::Nothing;
+  const bool wholly = all || moved || (part && frame.depth.multisampled); // pixels are compared by one depth
+  plan.picture = wholly ? Redraw::All : part ? Redraw::Part : Redraw::Nothing;
   plan.key = std::move(key);
   return plan;
 }
