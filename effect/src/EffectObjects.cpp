@@ -43,6 +43,7 @@ CreateResult Effect::create(const Config& config) {
   if (Status s = checkTuning(config.tuning); !s) return {nullptr, s};
   auto state = std::make_unique<State>(config);
   if (Status s = loadFunctions(state->gl, config.loader, 33, {}); !s) return {nullptr, s};
+  if (Status s = checkLists(state->gl, "Effect::create"); !s) return {nullptr, s};
   state->createObjects();
   if (Status s = state->watch.finish({}); !s) return {nullptr, s};
   return {std::unique_ptr<Effect>(new Effect(std::move(state))), {}};
@@ -102,7 +103,7 @@ void Effect::State::createObjects() {
 
 Status Effect::State::check(const char* function) {
   if (Status s = watch.check(); !s) return s;
-  return checkFeedback(gl, function);
+  return checkUnderWay(gl, function);
 }
 
 // Waits for the GPU, which who asks for statistics may.

@@ -33,20 +33,22 @@ void settleExtensions(gl::Functions& gl) {
   gl.stencilTexturing = has(43, "GL_ARB_stencil_texturing");
   if (!has(45, "GL_KHR_robustness"))
     gl.GetGraphicsResetStatus = has(45, "GL_ARB_robustness") ? gl.GetGraphicsResetStatusARB : nullptr;
-  if (!has(45, "GL_ARB_direct_state_access")) gl.GetTextureParameteriv = nullptr;
   if (!has(44, "GL_ARB_multi_bind")) gl.BindTextures = nullptr;
   if (!gl.BindTextures) gl.BindSamplers = nullptr;
+  if (extensions.count("GL_EXT_stencil_two_side") == 0) gl.ActiveStencilFaceEXT = nullptr;
   gl.debugOutput = has(43, "GL_KHR_debug") && gl.PushDebugGroup && gl.PopDebugGroup;
   gl.GetIntegerv(gl::MAX_CLIP_DISTANCES, &gl.clipDistances);
   gl::Int profile = 0;
   gl.GetIntegerv(gl::CONTEXT_PROFILE_MASK, &profile);
   gl.compatibility = (static_cast<gl::Bitfield>(profile) & gl::CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0;
+  // Mesa tells a texture's target in the core profile only.
+  if (!has(45, "GL_ARB_direct_state_access") || gl.compatibility) gl.GetTextureParameteriv = nullptr;
 }
 
 } // namespace
 
 Status loadFunctions(gl::Functions& gl, GlLoader loader, int version, const std::string& what) {
-  const std::string missing = gl.load(loader);
+  std::string missing = gl.load(loader);
   if (!gl.GetString) return {StatusCode::NoContext, "no GL context is current on this thread"};
   if (!gl.GetString(gl::VERSION)) return ContextWatch(gl).check();
   const std::string text = reinterpret_cast<const char*>(gl.GetString(gl::VERSION));
@@ -59,9 +61,12 @@ Status loadFunctions(gl::Functions& gl, GlLoader loader, int version, const std:
   if (gl.version < version || text.rfind("OpenGL ES", 0) == 0)
     return {StatusCode::ContextTooOld,
             "the context is \"" + text + "\": " + needed + " core or later is needed" + what};
+  if (missing.empty()) {
+    settleExtensions(gl);
+    if (gl.compatibility) missing = gl.loadLegacy(loader);
+  }
   if (!missing.empty())
     return {StatusCode::ContextTooOld, "the context is \"" + text + "\" but the loader knows no " + missing};
-  settleExtensions(gl);
   return ContextWatch(gl).check();
 }
 

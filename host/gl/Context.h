@@ -23,12 +23,17 @@ bool isOsmesaInstalled(); ///< Mesa has not had it since version 25.1
 /// missing.
 ContextKind defaultContextKind();
 
+/// Compatibility: what old engines have, with all of OpenGL 1 still in it.
+enum class ContextProfile { Core, Compatibility };
+
 struct ContextOptions {
   bool debug = true; ///< collect the driver's debug messages, synchronously
+  ContextProfile profile = ContextProfile::Core;
 };
 
-/// A core profile, 4.5 if there is one, at least 3.3. Contexts of one or several kinds may live side by side; the host
-/// keeps track of which one is current in a thread, so switch between them only with makeCurrent().
+/// A core profile, or what the options say, 4.5 if there is one, at least 3.3. Contexts of one or several kinds may
+/// live side by side; the host keeps track of which one is current in a thread, so switch between them only with
+/// makeCurrent().
 class Context {
 public:
   using Loader = void* (*)(const char* name);

@@ -10,7 +10,9 @@ void* load(const char* name) { return reinterpret_cast<void*>(egl().getProcAddre
 
 class EglContext final : public NativeContext {
 public:
-  explicit EglContext(bool debug) {
+  explicit EglContext(const ContextOptions& options) {
+    const EGLint profile = options.profile == ContextProfile::Core ? EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT
+                                                                   : EGL_CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT;
     egl().bindApi(EGL_OPENGL_API); // of this thread
     for (const auto& [major, minor] : kCoreVersions) {
       const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
@@ -18,16 +20,16 @@ public:
                                    EGL_CONTEXT_MINOR_VERSION,
                                    minor,
                                    EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                   EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                   profile,
                                    EGL_CONTEXT_OPENGL_DEBUG,
-                                   debug ? EGL_TRUE : EGL_FALSE,
+                                   options.debug ? EGL_TRUE : EGL_FALSE,
                                    EGL_NONE};
       context_ = egl().createContext(egl().display, egl().config, EGL_NO_CONTEXT, attributes);
       if (context_ != EGL_NO_CONTEXT) {
         return;
       }
     }
-    throw Error("context egl: the display has no OpenGL 3.3 core profile");
+    throw Error("context egl: the display has no OpenGL 3.3 of this profile");
   }
   ~EglContext() override { egl().destroyContext(egl().display, context_); }
 
@@ -47,7 +49,7 @@ private:
 } // namespace
 
 std::unique_ptr<NativeContext> createEglContext(const ContextOptions& options) {
-  return std::make_unique<EglContext>(options.debug);
+  return std::make_unique<EglContext>(options);
 }
 
 } // namespace host

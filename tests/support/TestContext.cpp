@@ -5,6 +5,8 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <stdexcept>
+#include <string>
 
 namespace tests {
 
@@ -44,8 +46,18 @@ host::ContextKind testContextKind() {
   return name ? host::parseContextKind(name) : host::defaultContextKind();
 }
 
+host::ContextOptions testContextOptions() {
+  const char* const set = std::getenv("TYNDALL_TEST_PROFILE");
+  const std::string name = set ? set : "core";
+  if (name != "core" && name != "compatibility")
+    throw std::runtime_error("TYNDALL_TEST_PROFILE is '" + name + "': must be core or compatibility");
+  host::ContextOptions options;
+  if (name == "compatibility") options.profile = host::ContextProfile::Compatibility;
+  return options;
+}
+
 host::Context& testContext() {
-  static const std::unique_ptr<host::Context> context = host::Context::create(testContextKind());
+  static const std::unique_ptr<host::Context> context = host::Context::create(testContextKind(), testContextOptions());
   theContext = context.get();
   context->makeCurrent();
   return *context;

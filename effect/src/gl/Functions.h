@@ -174,14 +174,22 @@ using Sync = ::__GLsync*;
   X(void, PushDebugGroup, (Enum source, Uint id, Sizei length, const Char* message), None)                             \
   X(void, PopDebugGroup, (), None)                                                                                     \
   X(void, GetTextureParameteriv, (Uint texture, Enum name, Int * value), None)                                         \
+  X(void, ActiveStencilFaceEXT, (Enum face), Legacy)                                                                   \
   X(void, BindTextures, (Uint first, Sizei n, const Uint* textures), Textures)                                         \
   X(void, BindSamplers, (Uint first, Sizei n, const Uint* samplers), Textures)
+
+// Functions that the compatibility profile needs: null in other contexts.
+#define TYNDALL_GL_LEGACY(X)                                                                                           \
+  X(void, GetFloatv, (Enum name, Float * value), None)                                                                 \
+  X(void, ClampColor, (Enum target, Enum clamp), Legacy)                                                               \
+  X(void, PixelTransferf, (Enum name, Float value), Legacy)
 
 struct Functions {
   // NOLINTBEGIN(readability-identifier-naming): GL's names
 #define TYNDALL_GL_DECLARE(result, name, arguments, state) result(TYNDALL_GLAPI* name) arguments = nullptr;
   TYNDALL_GL_REQUIRED(TYNDALL_GL_DECLARE)
   TYNDALL_GL_OPTIONAL(TYNDALL_GL_DECLARE)
+  TYNDALL_GL_LEGACY(TYNDALL_GL_DECLARE)
 #undef TYNDALL_GL_DECLARE
   // NOLINTEND(readability-identifier-naming)
   int version = 0;               ///< 10 * major + minor of the context
@@ -193,6 +201,8 @@ struct Functions {
 
   /// Fills the table. Returns the name of the first required function that the loader does not know, empty if all are.
   std::string load(void* (*loader)(const char*));
+  /// Likewise what the compatibility profile needs.
+  std::string loadLegacy(void* (*loader)(const char*));
 };
 
 } // namespace tyndall::gl

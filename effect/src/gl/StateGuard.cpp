@@ -92,8 +92,9 @@ constexpr std::array<Int, 5> kUnknown = {-1, -1, -1, -1, -1};
 
 } // namespace
 
-StateGuard::StateGuard(const Functions& gl, StateMode mode) : gl_(gl), mode_(mode) {
+StateGuard::StateGuard(const Functions& gl, StateMode mode) : gl_(gl), mode_(mode), legacy_(gl) {
   if (restores()) {
+    legacy_.save();
     save();
     clearSaved();
   } else {
@@ -164,6 +165,7 @@ void StateGuard::restore() const {
   if (scissorBox_) setScissor(gl_, *scissorBox_);
   if (scissor_) setScissorTest(gl_, true);
   if (savesStencil_) restoreStencil();
+  legacy_.restore();
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -305,6 +307,7 @@ void StateGuard::restoreStencil() const {
 // What a pass expects, whatever there was.
 void StateGuard::setDefaults() const {
   forEachCapability(gl_, [&](Enum capability) { gl_.Disable(capability); });
+  legacy_.setDefaults();
   gl_.Disable(SCISSOR_TEST);
   gl_.Disable(BLEND);
   gl_.BlendFuncSeparate(ONE, ZERO, ONE, ZERO);

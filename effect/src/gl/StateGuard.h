@@ -5,6 +5,7 @@
 
 #include "gl/Enums.h"
 #include "gl/Functions.h"
+#include "gl/LegacyState.h"
 
 #include <array>
 #include <optional>
@@ -91,6 +92,7 @@ private:
   std::vector<Unit> units_;
   bool savesStencil_ = false;
   std::array<StencilFace, 2> stencil_;
+  LegacyState legacy_;
 };
 
 /// How pixels are packed, and where to: around a read-back of pixels.
