@@ -72,7 +72,7 @@ Status checkLists(const gl::Functions& gl, const char* function) {
 
 Status checkUnderWay(const gl::Functions& gl, const char* function) {
   gl::Int active = 0;
-  if (gl.version >= 40) gl.GetIntegerv(gl::TRANSFORM_FEEDBACK_ACTIVE, &active);
+  if (gl.feedbackQuery) gl.GetIntegerv(gl::TRANSFORM_FEEDBACK_ACTIVE, &active);
   if (active) return {StatusCode::InvalidFrame, std::string("transform feedback is active: end it before ") + function};
   gl::Int mode = gl::RENDER;
   if (gl.compatibility) gl.GetIntegerv(gl::RENDER_MODE, &mode);

@@ -153,10 +153,12 @@ void main() {
   int first = 4 * int(gl_FragCoord.x), view = viewOfRow(int(gl_FragCoord.y));
   vec4 row = rowLine(view, sliceOfRow(int(gl_FragCoord.y)));
   ivec2 last = shadowMapSize - 1;
+  vec4 depths; // ESSL indexes no output
   for (int k = 0; k < 4; ++k) {
     vec2 p = row.xy + row.zw * (float(first + k) + 0.5);
-    outDepths[k] = coded(casterDepth(clamp(ivec2(floor(p)), ivec2(0), last), view));
+    depths[k] = coded(casterDepth(clamp(ivec2(floor(p)), ivec2(0), last), view));
   }
+  outDepths = depths;
 }
 
 #endif

@@ -15,9 +15,16 @@ std::string Functions::load(void* (*loader)(const char*)) {
   return missing;
 }
 
-std::string Functions::loadLegacy(void* (*loader)(const char*)) {
+std::string Functions::loadOwn(void* (*loader)(const char*)) {
   std::string missing;
-  TYNDALL_GL_LEGACY(TYNDALL_GL_REQUIRE)
+  if (language == Language::Essl) {
+    TYNDALL_GL_EMBEDDED(TYNDALL_GL_REQUIRE)
+  } else {
+    TYNDALL_GL_DESKTOP(TYNDALL_GL_REQUIRE)
+  }
+  if (compatibility) {
+    TYNDALL_GL_LEGACY(TYNDALL_GL_REQUIRE)
+  }
   return missing;
 }
 

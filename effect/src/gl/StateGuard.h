@@ -78,8 +78,8 @@ private:
   Int unpackBuffer_ = 0;
   Int uniformBuffer_ = 0;
   Int activeUnit_ = 0;
-  Int polygonMode_[2] = {};
-  std::array<Int, 2> clipControl_{}; // origin, depth mode; where the context has them
+  std::array<Int, 2> polygonMode_{FILL, FILL}; // where the context has it
+  std::array<Int, 2> clipControl_{};           // origin, depth mode; where the context has them
   std::array<Int, 5> unpacking_{};
   std::array<Float, 4> viewport_{};
   Boolean scissor_ = 0;

@@ -8,11 +8,42 @@
 
 namespace tyndall {
 
+namespace {
+
+// OpenGL ES takes no other channels and types for a format, though nothing is uploaded.
+gl::Enum channelsOf(gl::Enum format) {
+  switch (format) {
+  case gl::R8:
+  case gl::R32F:
+    return gl::RED;
+  case gl::RG16:
+  case gl::RG32F:
+    return gl::RG;
+  default:
+    return gl::RGBA;
+  }
+}
+
+gl::Enum typeOf(gl::Enum format) {
+  if (format == gl::R8) return gl::UNSIGNED_BYTE;
+  return format == gl::RG16 || format == gl::RGBA16 ? gl::UNSIGNED_SHORT : gl::FLOAT;
+}
+
+// Floats hold what 16-bit integers do.
+TexelFormat heldBy(const gl::Functions& gl, const TexelFormat& format) {
+  if (gl.normalised16) return format;
+  if (format.internal == gl::RG16) return {gl::RG32F, 8};
+  if (format.internal == gl::RGBA16) return {gl::RGBA32F, 16};
+  return format;
+}
+
+} // namespace
+
 Targets::~Targets() { dropOlderThan(-1); }
 
 gl::Uint Targets::get(Resource resource, const Extent& extent, int side) {
   const ResourceRow& row = rowOf(resource);
-  const TexelFormat& format = row.isWide(extent) ? row.wide : row.narrow;
+  const TexelFormat format = heldBy(gl_, row.isWide(extent) ? row.wide : row.narrow);
   Slot slot;
   slot.resource = resource;
   slot.size = row.size(extent);
@@ -58,15 +89,13 @@ bool Targets::make(Slot& slot) const {
     gl_.RenderbufferStorage(gl::RENDERBUFFER, slot.format, slot.size.width, slot.size.height);
     return errors.take() != gl::OUT_OF_MEMORY;
   }
-  const ResourceRow& row = rowOf(slot.resource);
-  const gl::Enum channels = slot.format == row.wide.internal ? row.wide.channels : row.narrow.channels;
   slot.texture = gl::Texture(gl_);
   gl_.ActiveTexture(gl::TEXTURE0);
   gl_.BindTexture(gl::TEXTURE_2D, slot.texture.name());
   gl_.TexParameteri(gl::TEXTURE_2D, gl::TEXTURE_MAX_LEVEL, 0);
-  gl_.TexImage2D(gl::TEXTURE_2D, 0, static_cast<gl::Int>(slot.format), slot.size.width, slot.size.height, 0, channels,
-                 gl::FLOAT, nullptr);
-  gl::label(gl_, gl::TEXTURE, slot.texture.name(), row.name);
+  gl_.TexImage2D(gl::TEXTURE_2D, 0, static_cast<gl::Int>(slot.format), slot.size.width, slot.size.height, 0,
+                 channelsOf(slot.format), typeOf(slot.format), nullptr);
+  gl::label(gl_, gl::TEXTURE, slot.texture.name(), rowOf(slot.resource).name);
   return errors.take() != gl::OUT_OF_MEMORY;
 }
 
