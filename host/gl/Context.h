@@ -24,7 +24,8 @@ bool isOsmesaInstalled(); ///< Mesa has not had it since version 25.1
 ContextKind defaultContextKind();
 
 /// Compatibility: what old engines have, with all of OpenGL 1 still in it.
-enum class ContextProfile { Core, Compatibility };
+/// Embedded: OpenGL ES 3.2, by EGL.
+enum class ContextProfile { Core, Compatibility, Embedded };
 
 struct ContextOptions {
   bool debug = true; ///< collect the driver's debug messages, synchronously
@@ -49,6 +50,7 @@ public:
 
   Loader loader() const; ///< resolves GL functions by name while this context is current
   ContextKind kind() const { return kind_; }
+  ContextProfile profile() const { return profile_; }
   int glVersion() const { return glVersion_; }                   ///< 10 major + minor
   const std::string& driver() const { return driver_; }          ///< vendor, renderer and version
   const GladGLContext& functions() const { return *functions_; } ///< what gl() gives while this context is current
@@ -58,11 +60,13 @@ public:
   std::vector<std::string> takeErrors();
 
 private:
-  Context(ContextKind kind, std::unique_ptr<NativeContext> native);
+  Context(ContextKind kind, ContextProfile profile, std::unique_ptr<NativeContext> native);
   void loadFunctions();
+  void loadEmbedded();
   void collectMessages();
 
   ContextKind kind_;
+  ContextProfile profile_;
   std::unique_ptr<NativeContext> native_;
   std::unique_ptr<GladGLContext> functions_;
   std::string driver_;

@@ -31,6 +31,7 @@ void* load(const char* name) { return reinterpret_cast<void*>(glfwGetProcAddress
 class GlfwContext final : public NativeContext {
 public:
   explicit GlfwContext(const ContextOptions& options) {
+    if (options.profile == ContextProfile::Embedded) throw Error("context glfw: has no OpenGL ES: use egl");
     static const GlfwLibrary library;
     for (const auto& [major, minor] : kCoreVersions) {
       glfwDefaultWindowHints();

@@ -40,6 +40,7 @@ void* load(const char* name) { return reinterpret_cast<void*>(osmesa().getProcAd
 class OsmesaContext final : public NativeContext {
 public:
   explicit OsmesaContext(ContextProfile asked) {
+    if (asked == ContextProfile::Embedded) throw Error("context osmesa: has no OpenGL ES: use egl");
     const int profile = asked == ContextProfile::Core ? kCoreProfile : kCompatibilityProfile;
     for (const auto& [major, minor] : kCoreVersions) {
       const int attributes[] = {kFormat, kRgba, kProfile, profile, kMajorVersion, major, kMinorVersion, minor, 0};

@@ -49,10 +49,13 @@ host::ContextKind testContextKind() {
 host::ContextOptions testContextOptions() {
   const char* const set = std::getenv("TYNDALL_TEST_PROFILE");
   const std::string name = set ? set : "core";
-  if (name != "core" && name != "compatibility")
-    throw std::runtime_error("TYNDALL_TEST_PROFILE is '" + name + "': must be core or compatibility");
   host::ContextOptions options;
-  if (name == "compatibility") options.profile = host::ContextProfile::Compatibility;
+  if (name == "compatibility")
+    options.profile = host::ContextProfile::Compatibility;
+  else if (name == "embedded")
+    options.profile = host::ContextProfile::Embedded;
+  else if (name != "core")
+    throw std::runtime_error("TYNDALL_TEST_PROFILE is '" + name + "': must be core, compatibility or embedded");
   return options;
 }
 

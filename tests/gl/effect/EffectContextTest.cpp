@@ -17,6 +17,11 @@ using tests::FakeContext;
 
 namespace {
 
+void GLAD_API_PTR sayVersion31(GLenum name, GLint* value) {
+  host::gl().GetIntegerv(name, value);
+  if (name == GL_MAJOR_VERSION) *value = 3;
+  if (name == GL_MINOR_VERSION) *value = 1;
+}
 void GLAD_API_PTR sayVersion32(GLenum name, GLint* value) {
   if (name == GL_MAJOR_VERSION)
     *value = 3;
@@ -26,7 +31,7 @@ void GLAD_API_PTR sayVersion32(GLenum name, GLint* value) {
     host::gl().GetIntegerv(name, value);
 }
 const GLubyte* GLAD_API_PTR sayDesktop32(GLenum) { return reinterpret_cast<const GLubyte*>("3.2 Old Driver"); }
-const GLubyte* GLAD_API_PTR sayEs32(GLenum) { return reinterpret_cast<const GLubyte*>("OpenGL ES 3.2 Phone"); }
+const GLubyte* GLAD_API_PTR sayEs31(GLenum) { return reinterpret_cast<const GLubyte*>("OpenGL ES 3.1 Phone"); }
 
 void requireStatus(const CreateResult& result, StatusCode code, const std::string& word) {
   INFO(result.status.message);
@@ -142,9 +147,9 @@ TEST_CASE("create refuses a context that is too old") {
   requireStatus(fake.create(), StatusCode::ContextTooOld, "3.2 Old Driver");
 }
 
-TEST_CASE("create refuses OpenGL ES") {
-  const FakeContext fake({}, {{"glGetString", address(sayEs32)}});
-  requireStatus(fake.create(), StatusCode::ContextTooOld, "OpenGL ES 3.2 Phone");
+TEST_CASE("create refuses an OpenGL ES that is too old") {
+  const FakeContext fake({}, {{"glGetIntegerv", address(sayVersion31)}, {"glGetString", address(sayEs31)}});
+  requireStatus(fake.create(), StatusCode::ContextTooOld, "OpenGL ES 3.1 Phone");
 }
 
 TEST_CASE("calls without a current context, or in another, are refused") {

@@ -242,8 +242,8 @@ Config configFor(const FrameCase& frameCase, GlLoader loader, PassTiming timing)
 
 bool canDraw(const FrameCase& frameCase) { return !frameCase.curves || testContext().glVersion() >= 43; }
 
-Stage::Stage(const FrameCase& frameCase, int width, int height)
-    : case_(frameCase), width_(width), height_(height), rig_(width, height),
+Stage::Stage(const FrameCase& frameCase, int width, int height, RigContext context)
+    : case_(frameCase), width_(width), height_(height), rig_(width, height, context),
       values_(4 * static_cast<std::size_t>(width * height), kBefore) {
   Frame& frame = rig_.scene.frame;
   for (const LightKind kind : case_.lights) {

@@ -22,6 +22,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/FrameTexturesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameValuesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GlState.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/GlesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GlThunks.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GpuWaits.cpp
   ${CMAKE_CURRENT_LIST_DIR}/HostileEngineTest.cpp
