@@ -172,6 +172,13 @@ std::size_t channelsRead(Use use) {
   return use == Use::Depth || use == Use::Map ? 1 : use == Use::Output ? 3 : use == Use::Curves ? 4 : 0;
 }
 
+// The texture is bound. OpenGL ES tells one channel at a time.
+void readSwizzle(const Functions& gl, Enum target, std::array<Int, 4>& sources) {
+  if (gl.language == Language::Glsl) return gl.GetTexParameteriv(target, TEXTURE_SWIZZLE_RGBA, sources.data());
+  for (Enum channel = 0; channel < 4; ++channel)
+    gl.GetTexParameteriv(target, TEXTURE_SWIZZLE_R + channel, &sources[channel]);
+}
+
 // The texture is bound.
 Status checkChannels(const Functions& gl, const std::string& field, Uint name, Enum target, Use use) {
   constexpr std::array<std::pair<Enum, const char*>, 4> kOwn = {{{RED, "R must be GL_RED"},
@@ -179,7 +186,7 @@ Status checkChannels(const Functions& gl, const std::string& field, Uint name, E
                                                                  {BLUE, "B must be GL_BLUE"},
                                                                  {ALPHA, "A must be GL_ALPHA"}}};
   std::array<Int, 4> sources = {RED, GREEN, BLUE, ALPHA};
-  if (channelsRead(use) > 0) gl.GetTexParameteriv(target, TEXTURE_SWIZZLE_RGBA, sources.data());
+  if (channelsRead(use) > 0) readSwizzle(gl, target, sources);
   for (std::size_t i = 0; i < channelsRead(use); ++i) {
     if (static_cast<Enum>(sources[i]) != kOwn[i].first)
       return invalid(field, name, std::string("GL_TEXTURE_SWIZZLE_") + kOwn[i].second);

@@ -6,6 +6,17 @@
 
 namespace tyndall {
 
+namespace {
+
+// Between glBegin and glEnd GL answers nothing, as without a context.
+Status noContext(const gl::Functions& gl) {
+  const bool mayBegin = gl.version == 0 || gl.compatibility;
+  return {StatusCode::NoContext, std::string("no GL context is current on this thread") +
+                                     (mayBegin ? ", or glBegin was called in it without glEnd" : "")};
+}
+
+} // namespace
+
 void ContextWatch::mark() {
   static std::atomic<int> count{0};
   number_ = -1000 - ++count % 1000000; // exact in a float
@@ -37,7 +48,7 @@ Status ContextWatch::check() {
   if (lost_) return lost();
   if (!gl_.GetString(gl::VERSION)) { // in a context that is lost, too
     if (gl_.GetError && gl_.GetError() == gl::CONTEXT_LOST) return lost();
-    return {StatusCode::NoContext, "no GL context is current on this thread"};
+    return noContext(gl_);
   }
   if (wasReset()) return lost();
   if (number_ == 0 || holdsMarks()) return {};
@@ -51,11 +62,25 @@ Status ContextWatch::finish(const Status& status) {
   return status;
 }
 
-Status checkFeedback(const gl::Functions& gl, const char* function) {
+Status checkLists(const gl::Functions& gl, const char* function) {
+  gl::Int list = 0;
+  if (gl.compatibility) gl.GetIntegerv(gl::LIST_INDEX, &list);
+  if (list == 0) return {};
+  return {StatusCode::InvalidFrame,
+          "display list " + std::to_string(list) + " is being compiled: call glEndList before " + function};
+}
+
+Status checkUnderWay(const gl::Functions& gl, const char* function) {
   gl::Int active = 0;
-  if (gl.version >= 40) gl.GetIntegerv(gl::TRANSFORM_FEEDBACK_ACTIVE, &active);
-  if (!active) return {};
-  return {StatusCode::InvalidFrame, std::string("transform feedback is active: end it before ") + function};
+  if (gl.feedbackQuery) gl.GetIntegerv(gl::TRANSFORM_FEEDBACK_ACTIVE, &active);
+  if (active) return {StatusCode::InvalidFrame, std::string("transform feedback is active: end it before ") + function};
+  gl::Int mode = gl::RENDER;
+  if (gl.compatibility) gl.GetIntegerv(gl::RENDER_MODE, &mode);
+  if (mode != gl::RENDER)
+    return {StatusCode::InvalidFrame, std::string("glRenderMode is ") +
+                                          (mode == gl::FEEDBACK ? "GL_FEEDBACK" : "GL_SELECT") +
+                                          ": set GL_RENDER before " + function};
+  return checkLists(gl, function);
 }
 
 } // namespace tyndall

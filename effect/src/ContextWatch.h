@@ -34,7 +34,10 @@ private:
   gl::Int number_ = 0;
 };
 
-/// InvalidFrame while transform feedback is active, during which GL lets no other program be used.
-Status checkFeedback(const gl::Functions& gl, const char* function);
+/// InvalidFrame while what is drawn would not be drawn: while transform feedback is active, during which GL lets no
+/// other program be used, and in the compatibility profile while a list is being compiled or primitives only counted.
+Status checkUnderWay(const gl::Functions& gl, const char* function);
+/// The part of it that keeps objects from being made.
+Status checkLists(const gl::Functions& gl, const char* function);
 
 } // namespace tyndall

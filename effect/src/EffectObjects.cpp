@@ -18,6 +18,7 @@ std::string rendererOf(const gl::Functions& gl) {
 
 // 0 too from a driver that does not know the question.
 int dualSourceBuffersOf(const gl::Functions& gl) {
+  if (!gl.dualSource) return 0;
   gl::OwnErrors errors(gl);
   gl::Int count = 0;
   gl.GetIntegerv(gl::MAX_DUAL_SOURCE_DRAW_BUFFERS, &count);
@@ -43,6 +44,9 @@ CreateResult Effect::create(const Config& config) {
   if (Status s = checkTuning(config.tuning); !s) return {nullptr, s};
   auto state = std::make_unique<State>(config);
   if (Status s = loadFunctions(state->gl, config.loader, 33, {}); !s) return {nullptr, s};
+  if (config.timing == PassTiming::TimerQuery && !state->gl.timerQueries)
+    return {nullptr, invalid("Config::timing is TimerQuery: this context has no GL_EXT_disjoint_timer_query")};
+  if (Status s = checkLists(state->gl, "Effect::create"); !s) return {nullptr, s};
   state->createObjects();
   if (Status s = state->watch.finish({}); !s) return {nullptr, s};
   return {std::unique_ptr<Effect>(new Effect(std::move(state))), {}};
@@ -104,14 +108,32 @@ void Effect::State::createObjects() {
 
 Status Effect::State::check(const char* function) {
   if (Status s = watch.check(); !s) return s;
-  return checkFeedback(gl, function);
+  return checkUnderWay(gl, function);
 }
+
+namespace {
+
+// OpenGL ES: as it has no glGetTexImage.
+gl::Float readThroughFramebuffer(const gl::Functions& gl, gl::Uint texture) {
+  gl::Int bound = 0;
+  gl.GetIntegerv(gl::READ_FRAMEBUFFER_BINDING, &bound);
+  const gl::Framebuffer framebuffer(gl);
+  gl.BindFramebuffer(gl::READ_FRAMEBUFFER, framebuffer.name());
+  gl.FramebufferTexture2D(gl::READ_FRAMEBUFFER, gl::COLOR_ATTACHMENT0, gl::TEXTURE_2D, texture, 0);
+  gl::Float texel[4] = {};
+  gl.ReadPixels(0, 0, 1, 1, gl::RGBA, gl::FLOAT, texel);
+  gl.BindFramebuffer(gl::READ_FRAMEBUFFER, static_cast<gl::Uint>(bound));
+  return texel[0];
+}
+
+} // namespace
 
 // Waits for the GPU, which who asks for statistics may.
 double Effect::State::visitsPerRay() const {
   if (visits == 0) return 0;
   const gl::StateGuard guard(gl, StateMode::Restore);
   const gl::PackGuard packing(gl, StateMode::Restore);
+  if (!gl.GetTexImage) return readThroughFramebuffer(gl, visits);
   gl::Float mean = 0;
   gl.ActiveTexture(gl::TEXTURE0);
   gl.BindTexture(gl::TEXTURE_2D, visits);

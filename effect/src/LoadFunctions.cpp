@@ -4,10 +4,13 @@
 #include "gl/Enums.h"
 
 #include <set>
+#include <type_traits>
 
 namespace tyndall {
 
 namespace {
+
+constexpr int kLeastVersion = 33; // of an effect
 
 std::set<std::string> extensionsOf(const gl::Functions& gl) {
   gl::Int count = 0;
@@ -19,36 +22,86 @@ std::set<std::string> extensionsOf(const gl::Functions& gl) {
   return names;
 }
 
-// What is of a later version than the context's, unless an extension brings it.
-void settleExtensions(gl::Functions& gl) {
-  const std::set<std::string> extensions = extensionsOf(gl);
-  const auto has = [&](int version, const char* extension) {
-    return gl.version >= version || extensions.count(extension) != 0;
-  };
-  if (!has(45, "GL_ARB_clip_control")) gl.ClipControl = nullptr;
-  if (!has(41, "GL_ARB_get_program_binary")) gl.GetProgramBinary = nullptr;
-  if (!has(43, "GL_KHR_debug")) gl.ObjectLabel = nullptr;
-  gl.parallelCompile = extensions.count("GL_KHR_parallel_shader_compile") != 0 ||
-                       extensions.count("GL_ARB_parallel_shader_compile") != 0;
-  gl.cubeArrays = has(40, "GL_ARB_texture_cube_map_array");
-  gl.stencilTexturing = has(43, "GL_ARB_stencil_texturing");
-  if (!has(45, "GL_KHR_robustness"))
-    gl.GetGraphicsResetStatus = has(45, "GL_ARB_robustness") ? gl.GetGraphicsResetStatusARB : nullptr;
-  if (!has(45, "GL_ARB_direct_state_access")) gl.GetTextureParameteriv = nullptr;
-  if (!has(44, "GL_ARB_multi_bind")) gl.BindTextures = nullptr;
-  if (!gl.BindTextures) gl.BindSamplers = nullptr;
-  gl.debugOutput = has(43, "GL_KHR_debug") && gl.PushDebugGroup && gl.PopDebugGroup;
-  gl.GetIntegerv(gl::MAX_CLIP_DISTANCES, &gl.clipDistances);
-  gl::Int profile = 0;
-  gl.GetIntegerv(gl::CONTEXT_PROFILE_MASK, &profile);
-  gl.compatibility = (static_cast<gl::Bitfield>(profile) & gl::CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0;
-  if (gl.compatibility) gl.GetTextureParameteriv = nullptr; // Mesa tells a texture's target in the core profile only
+class Context {
+public:
+  explicit Context(gl::Functions& gl) : gl_(gl), extensions_(extensionsOf(gl)) {}
+
+  bool has(const char* extension) const { return extensions_.count(extension) != 0; }
+  /// A desktop context of that version, or any with the extension.
+  bool has(int version, const char* extension) const {
+    return (!isEmbedded() && gl_.version >= version) || has(extension);
+  }
+  bool isEmbedded() const { return gl_.language == gl::Language::Essl; }
+
+  void settle(GlLoader loader) {
+    if (isEmbedded())
+      settleEmbedded(loader);
+    else
+      settleDesktop();
+    gl_.parallelCompile = has("GL_KHR_parallel_shader_compile") || has("GL_ARB_parallel_shader_compile");
+    gl_.debugOutput = gl_.debugOutput && gl_.PushDebugGroup && gl_.PopDebugGroup;
+    gl_.indexedBlending = gl_.indexedBlending && gl_.BlendFuncSeparatei && gl_.BlendEquationSeparatei;
+    gl_.viewportArrays = gl_.viewportArrays && gl_.ViewportIndexedf && gl_.ScissorIndexed && gl_.GetFloati_v;
+    if (isEmbedded() ? has("GL_EXT_clip_cull_distance") : true)
+      gl_.GetIntegerv(gl::MAX_CLIP_DISTANCES, &gl_.clipDistances);
+  }
+
+private:
+  // What is of a later version than the context's, unless an extension brings it.
+  void settleDesktop() {
+    gl::Int profile = 0;
+    gl_.GetIntegerv(gl::CONTEXT_PROFILE_MASK, &profile);
+    gl_.compatibility = (static_cast<gl::Bitfield>(profile) & gl::CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0;
+    gl_.indexedBlending = gl_.feedbackQuery = gl_.version >= 40;
+    gl_.viewportArrays = gl_.version >= 41;
+    gl_.cubeArrays = has(40, "GL_ARB_texture_cube_map_array");
+    gl_.stencilTexturing = has(43, "GL_ARB_stencil_texturing");
+    gl_.debugOutput = has(43, "GL_KHR_debug");
+    gl_.normalised16 = gl_.countsSamples = gl_.timerQueries = gl_.dualSource = true;
+    if (!has(45, "GL_ARB_clip_control")) gl_.ClipControl = nullptr;
+    if (!has(41, "GL_ARB_get_program_binary")) gl_.GetProgramBinary = nullptr;
+    if (!has(43, "GL_KHR_debug")) gl_.ObjectLabel = nullptr;
+    if (!has(45, "GL_KHR_robustness"))
+      gl_.GetGraphicsResetStatus = has(45, "GL_ARB_robustness") ? gl_.GetGraphicsResetStatusARB : nullptr;
+    // Mesa tells a texture's target in the core profile only.
+    if (!has(45, "GL_ARB_direct_state_access") || gl_.compatibility) gl_.GetTextureParameteriv = nullptr;
+    if (!has(44, "GL_ARB_multi_bind")) gl_.BindTextures = nullptr;
+    if (!gl_.BindTextures) gl_.BindSamplers = nullptr;
+    if (!has("GL_EXT_stencil_two_side")) gl_.ActiveStencilFaceEXT = nullptr;
+  }
+
+  // OpenGL ES 3.2, whose extensions have functions of other names.
+  void settleEmbedded(GlLoader loader) {
+    const auto take = [&](auto& function, const char* extension, const char* name) {
+      function = has(extension) ? reinterpret_cast<std::decay_t<decltype(function)>>(loader(name)) : nullptr;
+    };
+    gl_.cubeArrays = gl_.indexedBlending = gl_.stencilTexturing = gl_.debugOutput = gl_.feedbackQuery = true;
+    gl_.normalised16 = has("GL_EXT_texture_norm16");
+    gl_.dualSource = has("GL_EXT_blend_func_extended");
+    take(gl_.ClipControl, "GL_EXT_clip_control", "glClipControlEXT");
+    take(gl_.PolygonMode, "GL_NV_polygon_mode", "glPolygonModeNV");
+    take(gl_.QueryCounter, "GL_EXT_disjoint_timer_query", "glQueryCounterEXT");
+    take(gl_.GetQueryObjectui64v, "GL_EXT_disjoint_timer_query", "glGetQueryObjectui64vEXT");
+    gl_.timerQueries = gl_.QueryCounter && gl_.GetQueryObjectui64v;
+    gl_.GetTextureParameteriv = nullptr;
+    gl_.BindTextures = nullptr;
+    gl_.BindSamplers = nullptr;
+    gl_.ActiveStencilFaceEXT = nullptr;
+  }
+
+  gl::Functions& gl_;
+  std::set<std::string> extensions_;
+};
+
+std::string neededFor(int version) {
+  return "OpenGL " + std::to_string(version / 10) + "." + std::to_string(version % 10) + " core" +
+         (version == kLeastVersion ? ", OpenGL ES 3.2" : "") + " or later is needed";
 }
 
 } // namespace
 
 Status loadFunctions(gl::Functions& gl, GlLoader loader, int version, const std::string& what) {
-  const std::string missing = gl.load(loader);
+  std::string missing = gl.load(loader);
   if (!gl.GetString) return {StatusCode::NoContext, "no GL context is current on this thread"};
   if (!gl.GetString(gl::VERSION)) return ContextWatch(gl).check();
   const std::string text = reinterpret_cast<const char*>(gl.GetString(gl::VERSION));
@@ -57,13 +110,19 @@ Status loadFunctions(gl::Functions& gl, GlLoader loader, int version, const std:
   gl.GetIntegerv(gl::MAJOR_VERSION, &major); // an error, and 0, before OpenGL 3.0
   gl.GetIntegerv(gl::MINOR_VERSION, &minor);
   gl.version = 10 * major + minor;
-  const std::string needed = "OpenGL " + std::to_string(version / 10) + "." + std::to_string(version % 10);
-  if (gl.version < version || text.rfind("OpenGL ES", 0) == 0)
-    return {StatusCode::ContextTooOld,
-            "the context is \"" + text + "\": " + needed + " core or later is needed" + what};
+  const bool embedded = text.rfind("OpenGL ES", 0) == 0;
+  if (embedded ? version > kLeastVersion || gl.version < 32 : gl.version < version)
+    return {StatusCode::ContextTooOld, "the context is \"" + text + "\": " + neededFor(version) + what};
+  gl.language = embedded ? gl::Language::Essl : gl::Language::Glsl;
+  if (missing.empty()) {
+    Context context(gl);
+    context.settle(loader);
+    missing = gl.loadOwn(loader);
+    if (embedded && !context.has("GL_EXT_float_blend"))
+      return {StatusCode::ContextTooOld, "the context is \"" + text + "\" without GL_EXT_float_blend, which is needed"};
+  }
   if (!missing.empty())
     return {StatusCode::ContextTooOld, "the context is \"" + text + "\" but the loader knows no " + missing};
-  settleExtensions(gl);
   return ContextWatch(gl).check();
 }
 

@@ -28,7 +28,7 @@ void PassRecorder::beginFrame() {
   marched_ = 0;
   ++frame_;
   pools().counts.used = pools().times.used = 0;
-  counts_ = !countsItself(gl_);
+  counts_ = gl_.countsSamples && !countsItself(gl_);
 }
 
 void PassRecorder::skip(const std::string& pass, const std::string& why) { passes_.push_back({{pass, why, 0}}); }

@@ -153,10 +153,12 @@ void main() {
   int first = 4 * int(gl_FragCoord.x), view = viewOfRow(int(gl_FragCoord.y));
   vec4 row = rowLine(view, sliceOfRow(int(gl_FragCoord.y)));
   ivec2 last = shadowViews[view].size - 1, origin = firstTexel(view);
+  vec4 depths; // ESSL indexes no output
   for (int k = 0; k < 4; ++k) {
     vec2 p = row.xy + row.zw * (float(first + k) + 0.5);
-    outDepths[k] = coded(casterDepth(clamp(ivec2(floor(p)), ivec2(0), last) + origin, view));
+    depths[k] = coded(casterDepth(clamp(ivec2(floor(p)), ivec2(0), last) + origin, view));
   }
+  outDepths = depths;
 }
 
 #endif

@@ -65,16 +65,20 @@ void main() {
   Ray reference = referenceRay(slice);
   lowRank.set = lowRankPerSlice != 0 ? slice : 0;
   vec3 place = placeAt(reference, view, line, float(first));
+  vec4 red = vec4(0.0), green = vec4(0.0), blue = vec4(0.0); // ESSL indexes no output
   for (int k = 1; k <= 4; ++k) {
     vec3 next = placeAt(reference, view, line, float(first + k)), tint = tintAt(line.xy + line.zw * (float(first + k) - 0.5), view);
     for (int i = 0; i < 4; ++i) {
       int term = 4 * four + i;
       if (term >= lowRankTerms) continue;
       vec3 light = tint * vec3(prefixSum(term, next) - prefixSum(term, place));
-      outRed[i] += light.r;
-      outGreen[i] += light.g;
-      outBlue[i] += light.b;
+      red[i] += light.r;
+      green[i] += light.g;
+      blue[i] += light.b;
     }
     place = next;
   }
+  outRed = red;
+  outGreen = green;
+  outBlue = blue;
 }

@@ -5,6 +5,8 @@
 #include "scene/Error.h"
 #include "scene/Tool.h"
 
+#include <type_traits>
+
 namespace host {
 
 namespace {
@@ -63,6 +65,8 @@ const GladGLContext& gl() {
   return currentContext->functions();
 }
 
+bool isEmbedded() { return currentContext && currentContext->profile() == ContextProfile::Embedded; }
+
 ContextKind parseContextKind(const std::string& name) {
   for (const ContextKind kind : {ContextKind::Osmesa, ContextKind::Egl, ContextKind::Glfw}) {
     if (name == nameOf(kind)) {
@@ -99,7 +103,7 @@ std::unique_ptr<Context> Context::create(ContextKind kind, const ContextOptions&
   if (currentContext) {
     currentContext->releaseCurrent();
   }
-  std::unique_ptr<Context> context(new Context(kind, createNative(kind, options)));
+  std::unique_ptr<Context> context(new Context(kind, options.profile, createNative(kind, options)));
   context->makeCurrent();
   context->loadFunctions();
   if (options.debug) {
@@ -108,8 +112,8 @@ std::unique_ptr<Context> Context::create(ContextKind kind, const ContextOptions&
   return context;
 }
 
-Context::Context(ContextKind kind, std::unique_ptr<NativeContext> native)
-    : kind_(kind), native_(std::move(native)), functions_(std::make_unique<GladGLContext>()) {}
+Context::Context(ContextKind kind, ContextProfile profile, std::unique_ptr<NativeContext> native)
+    : kind_(kind), profile_(profile), native_(std::move(native)), functions_(std::make_unique<GladGLContext>()) {}
 
 Context::~Context() { releaseCurrent(); }
 
@@ -123,9 +127,26 @@ void Context::loadFunctions() {
   }
   glVersion_ = 10 * GLAD_VERSION_MAJOR(version) + GLAD_VERSION_MINOR(version);
   driver_ = glString(GL_VENDOR) + ", " + glString(GL_RENDERER) + ", OpenGL " + glString(GL_VERSION);
-  if (glVersion_ < 33) {
+  if (profile_ == ContextProfile::Embedded) {
+    loadEmbedded();
+  } else if (glVersion_ < 33) {
     throw Error(std::string("context ") + nameOf(kind_) + ": needs OpenGL 3.3 core, but has " + driver_);
   }
+}
+
+// What OpenGL ES 3.2 has of later versions of OpenGL.
+void Context::loadEmbedded() {
+  const auto load = [this](auto& function, const char* name) {
+    function = reinterpret_cast<std::decay_t<decltype(function)>>(loader()(name));
+  };
+  load(functions_->GenSamplers, "glGenSamplers");
+  load(functions_->DeleteSamplers, "glDeleteSamplers");
+  load(functions_->IsSampler, "glIsSampler");
+  load(functions_->BindSampler, "glBindSampler");
+  load(functions_->SamplerParameteri, "glSamplerParameteri");
+  load(functions_->TexStorage2DMultisample, "glTexStorage2DMultisample");
+  load(functions_->BlendFuncSeparatei, "glBlendFuncSeparatei");
+  load(functions_->BlendEquationSeparatei, "glBlendEquationSeparatei");
 }
 
 void Context::collectMessages() {

@@ -23,12 +23,18 @@ bool isOsmesaInstalled(); ///< Mesa has not had it since version 25.1
 /// missing.
 ContextKind defaultContextKind();
 
+/// Compatibility: what old engines have, with all of OpenGL 1 still in it.
+/// Embedded: OpenGL ES 3.2, by EGL.
+enum class ContextProfile { Core, Compatibility, Embedded };
+
 struct ContextOptions {
   bool debug = true; ///< collect the driver's debug messages, synchronously
+  ContextProfile profile = ContextProfile::Core;
 };
 
-/// A core profile, 4.5 if there is one, at least 3.3. Contexts of one or several kinds may live side by side; the host
-/// keeps track of which one is current in a thread, so switch between them only with makeCurrent().
+/// A core profile, or what the options say, 4.5 if there is one, at least 3.3. Contexts of one or several kinds may
+/// live side by side; the host keeps track of which one is current in a thread, so switch between them only with
+/// makeCurrent().
 class Context {
 public:
   using Loader = void* (*)(const char* name);
@@ -44,6 +50,7 @@ public:
 
   Loader loader() const; ///< resolves GL functions by name while this context is current
   ContextKind kind() const { return kind_; }
+  ContextProfile profile() const { return profile_; }
   int glVersion() const { return glVersion_; }                   ///< 10 major + minor
   const std::string& driver() const { return driver_; }          ///< vendor, renderer and version
   const GladGLContext& functions() const { return *functions_; } ///< what gl() gives while this context is current
@@ -53,11 +60,13 @@ public:
   std::vector<std::string> takeErrors();
 
 private:
-  Context(ContextKind kind, std::unique_ptr<NativeContext> native);
+  Context(ContextKind kind, ContextProfile profile, std::unique_ptr<NativeContext> native);
   void loadFunctions();
+  void loadEmbedded();
   void collectMessages();
 
   ContextKind kind_;
+  ContextProfile profile_;
   std::unique_ptr<NativeContext> native_;
   std::unique_ptr<GladGLContext> functions_;
   std::string driver_;

@@ -30,21 +30,23 @@ void* load(const char* name) { return reinterpret_cast<void*>(glfwGetProcAddress
 
 class GlfwContext final : public NativeContext {
 public:
-  explicit GlfwContext(bool debug) {
+  explicit GlfwContext(const ContextOptions& options) {
+    if (options.profile == ContextProfile::Embedded) throw Error("context glfw: has no OpenGL ES: use egl");
     static const GlfwLibrary library;
     for (const auto& [major, minor] : kCoreVersions) {
       glfwDefaultWindowHints();
       glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
       glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, major);
       glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, minor);
-      glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-      glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, debug ? GLFW_TRUE : GLFW_FALSE);
+      glfwWindowHint(GLFW_OPENGL_PROFILE,
+                     options.profile == ContextProfile::Core ? GLFW_OPENGL_CORE_PROFILE : GLFW_OPENGL_COMPAT_PROFILE);
+      glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.debug ? GLFW_TRUE : GLFW_FALSE);
       window_ = glfwCreateWindow(kWindowSide, kWindowSide, "tyndall", nullptr, nullptr);
       if (window_) {
         return;
       }
     }
-    throw Error("context glfw: no window with an OpenGL 3.3 core profile: " + lastError());
+    throw Error("context glfw: no window with an OpenGL 3.3 of this profile: " + lastError());
   }
   ~GlfwContext() override { glfwDestroyWindow(window_); }
 
@@ -65,7 +67,7 @@ private:
 } // namespace
 
 std::unique_ptr<NativeContext> createGlfwContext(const ContextOptions& options) {
-  return std::make_unique<GlfwContext>(options.debug);
+  return std::make_unique<GlfwContext>(options);
 }
 
 } // namespace host

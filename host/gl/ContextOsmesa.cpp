@@ -8,7 +8,8 @@ namespace {
 
 // Of OSMesa's header, which newer Mesas do not have any more.
 using OsmesaHandle = struct OsmesaHandleTag*;
-constexpr int kFormat = 0x22, kProfile = 0x33, kCoreProfile = 0x34, kMajorVersion = 0x36, kMinorVersion = 0x37;
+constexpr int kFormat = 0x22, kProfile = 0x33, kCoreProfile = 0x34, kCompatibilityProfile = 0x35, kMajorVersion = 0x36,
+              kMinorVersion = 0x37;
 constexpr int kRgba = 0x1908;              // GL_RGBA
 constexpr unsigned kUnsignedByte = 0x1401; // GL_UNSIGNED_BYTE
 
@@ -38,15 +39,17 @@ void* load(const char* name) { return reinterpret_cast<void*>(osmesa().getProcAd
 
 class OsmesaContext final : public NativeContext {
 public:
-  OsmesaContext() {
+  explicit OsmesaContext(ContextProfile asked) {
+    if (asked == ContextProfile::Embedded) throw Error("context osmesa: has no OpenGL ES: use egl");
+    const int profile = asked == ContextProfile::Core ? kCoreProfile : kCompatibilityProfile;
     for (const auto& [major, minor] : kCoreVersions) {
-      const int attributes[] = {kFormat, kRgba, kProfile, kCoreProfile, kMajorVersion, major, kMinorVersion, minor, 0};
+      const int attributes[] = {kFormat, kRgba, kProfile, profile, kMajorVersion, major, kMinorVersion, minor, 0};
       context_ = osmesa().createContextAttribs(attributes, nullptr);
       if (context_) {
         return;
       }
     }
-    throw Error("context osmesa: libOSMesa has no OpenGL 3.3 core profile");
+    throw Error("context osmesa: libOSMesa has no OpenGL 3.3 of this profile");
   }
   ~OsmesaContext() override { osmesa().destroyContext(context_); }
 
@@ -75,8 +78,8 @@ bool isOsmesaInstalled() {
   }
 }
 
-std::unique_ptr<NativeContext> createOsmesaContext(const ContextOptions& /*options*/) {
-  return std::make_unique<OsmesaContext>();
+std::unique_ptr<NativeContext> createOsmesaContext(const ContextOptions& options) {
+  return std::make_unique<OsmesaContext>(options.profile);
 }
 
 } // namespace host

@@ -20,10 +20,13 @@ public:
   virtual Context::Loader loader() const = 0;
 };
 
-/// Core profile versions in the order in which they are asked for.
+/// Versions in the order in which they are asked for.
 inline constexpr std::array<std::pair<int, int>, 4> kCoreVersions = {{{4, 5}, {4, 3}, {4, 1}, {3, 3}}};
 
-/// Each throws host::Error if the library or a core profile of at least 3.3 is missing.
+/// That of OpenGL ES.
+inline constexpr std::pair<int, int> kEmbeddedVersion = {3, 2};
+
+/// Each throws host::Error if the library or a profile of at least 3.3 is missing.
 std::unique_ptr<NativeContext> createOsmesaContext(const ContextOptions& options);
 std::unique_ptr<NativeContext> createEglContext(const ContextOptions& options);
 std::unique_ptr<NativeContext> createGlfwContext(const ContextOptions& options);

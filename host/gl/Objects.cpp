@@ -38,8 +38,15 @@ std::pair<GLenum, GLenum> transferFormatOf(GLenum internalFormat) {
   case GL_DEPTH_COMPONENT16:
   case GL_DEPTH_COMPONENT24:
   case GL_DEPTH_COMPONENT32:
+    return {GL_DEPTH_COMPONENT, GL_UNSIGNED_INT};
   case GL_DEPTH_COMPONENT32F:
     return {GL_DEPTH_COMPONENT, GL_FLOAT};
+  case GL_R32F:
+    return {GL_RED, GL_FLOAT};
+  case GL_RGB16F:
+  case GL_RGB32F:
+  case GL_R11F_G11F_B10F:
+    return {GL_RGB, GL_FLOAT};
   case GL_DEPTH24_STENCIL8:
     return {GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8};
   case GL_DEPTH32F_STENCIL8:
@@ -61,9 +68,17 @@ std::string withDefines(const char* source, const std::vector<std::string>& defi
   return text.insert(text.find('\n') + 1, lines);
 }
 
+/// GLSL as the context wants it.
+std::string inLanguage(const std::string& source) {
+  if (!isEmbedded()) return source;
+  const std::string precisions = "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
+  return "#version 320 es\n" + precisions + source.substr(source.find('\n') + 1);
+}
+
 GlShader compile(GLenum stage, const std::string& source, const std::string& name) {
   GlShader shader(gl().CreateShader(stage));
-  const char* text = source.c_str();
+  const std::string complete = inLanguage(source);
+  const char* text = complete.c_str();
   gl().ShaderSource(shader.name(), 1, &text, nullptr);
   gl().CompileShader(shader.name());
   GLint compiled = GL_FALSE;
@@ -106,7 +121,10 @@ GlTexture makeTextureArray(GLenum internalFormat, int width, int height, int lay
 GlTexture makeTexture2DMultisample(GLenum internalFormat, int width, int height, int samples) {
   GlTexture texture = makeTexture();
   gl().BindTexture(GL_TEXTURE_2D_MULTISAMPLE, texture.name());
-  gl().TexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, internalFormat, width, height, GL_TRUE);
+  if (isEmbedded())
+    gl().TexStorage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, internalFormat, width, height, GL_TRUE);
+  else
+    gl().TexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, internalFormat, width, height, GL_TRUE);
   return texture;
 }
 

@@ -27,7 +27,7 @@ void attach(GLenum attachment, GLuint texture, int layer) {
 
 void setPlainPacking() {
   gl().BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  gl().PixelStorei(GL_PACK_SWAP_BYTES, GL_FALSE);
+  if (!isEmbedded()) gl().PixelStorei(GL_PACK_SWAP_BYTES, GL_FALSE);
   gl().PixelStorei(GL_PACK_ALIGNMENT, 4);
   gl().PixelStorei(GL_PACK_ROW_LENGTH, 0);
   gl().PixelStorei(GL_PACK_SKIP_ROWS, 0);
@@ -40,11 +40,11 @@ std::vector<float> read(GLuint texture, int width, int height, int layer, GLenum
   gl().BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
   attach(attachment, texture, layer);
   const GLenum buffer = attachment == GL_COLOR_ATTACHMENT0 ? GL_COLOR_ATTACHMENT0 : GL_NONE;
-  gl().DrawBuffer(buffer);
+  gl().DrawBuffers(1, &buffer);
   gl().ReadBuffer(buffer);
   requireCompleteFramebuffer("read-back of texture " + std::to_string(texture));
   setPlainPacking();
-  if (gl().ClampColor) {
+  if (!isEmbedded()) {
     gl().ClampColor(GL_CLAMP_READ_COLOR, GL_FALSE);
   }
   std::vector<float> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
@@ -54,9 +54,18 @@ std::vector<float> read(GLuint texture, int width, int height, int layer, GLenum
   return pixels;
 }
 
+/// OpenGL ES gives no fewer than four.
+std::vector<float> firstChannels(const std::vector<float>& rgba, int channels) {
+  std::vector<float> values;
+  for (std::size_t i = 0; i < rgba.size(); ++i)
+    if (static_cast<int>(i % 4) < channels) values.push_back(rgba[i]);
+  return values;
+}
+
 } // namespace
 
 std::vector<float> readColour(GLuint texture, int width, int height, int channels) {
+  if (isEmbedded() && channels < 4) return firstChannels(readColour(texture, width, height), channels);
   return read(texture, width, height, kNoLayer, GL_COLOR_ATTACHMENT0, formatOf(channels), channels);
 }
 

@@ -41,6 +41,8 @@ std::string wordOf(const std::string& name, int value) {
 
 class Collector {
 public:
+  explicit Collector(gl::Language language = gl::Language::Glsl) : language_(language) {}
+
   void add(const std::string& name, const std::string& text) {
     if (texts_.insert(text).second) files_.push_back({name, text});
   }
@@ -48,13 +50,14 @@ public:
   // A shader of glsl/passes, named after those of the definitions that it mentions.
   void addPass(const std::string& file, const gl::Definitions& definitions) {
     const std::filesystem::path path(file);
-    const std::string text = gl::completeSource(file, definitions);
+    const std::string text = gl::completeSource(file, definitions, language_);
     add(nameInWords(path.stem(), gl::mentionedBy(text, definitions)) + path.extension().string(), text);
   }
 
   std::vector<ShaderFile> take() { return std::move(files_); }
 
 private:
+  gl::Language language_;
   std::set<std::string> texts_;
   std::vector<ShaderFile> files_;
 };
@@ -132,6 +135,13 @@ std::vector<ShaderFile> allShaders() {
   for (const auto& shaders : {captureShaders(), insertShaders(), lookupShaders()})
     addPublic(shaders, all);
   addBaselines(all);
+  return all.take();
+}
+
+std::vector<ShaderFile> embeddedShaders() {
+  Collector all(gl::Language::Essl);
+  for (const bool dualSource : {true, false})
+    addPrograms(allVariants(dualSource), all);
   return all.take();
 }
 

@@ -17,6 +17,9 @@ struct ShaderFile {
 /// the baselines of tests/bench. No text is there twice.
 std::vector<ShaderFile> allShaders();
 
+/// Those of the effect as OpenGL ES is given them, with dual-source blending and without.
+std::vector<ShaderFile> embeddedShaders();
+
 /// How a file of that stem ("march") with these definitions is called, without extension.
 std::string nameInWords(const std::string& stem, const tyndall::gl::Definitions& definitions);
 

@@ -1,11 +1,12 @@
 #!/bin/sh
 # compile.sh GLSLANG TOOL DIR: has TOOL (tyndall-shaders) write every shader into DIR, and the Khronos reference compiler
-# read all of them, as they are and with their #version raised: words that a later GLSL reserves are refused there.
+# read all of them, the effect's as ESSL, too, as they are and with their #version raised: words that a later GLSL reserves are refused there.
 set -eu
 glslang=$1 tool=$2 dir=$3
 [ -x "$glslang" ] || { echo "glslangValidator is missing: run tests/run.sh --all" >&2; exit 1; }
 rm -rf "$dir"
 "$tool" "$dir/own"
+"$tool" --essl "$dir/essl"
 
 # Says which files of a folder are refused, and why.
 compile() {
@@ -18,6 +19,7 @@ compile() {
 }
 
 compile own
+compile essl
 for version in 430 460; do
   mkdir "$dir/$version"
   cp "$dir"/own/* "$dir/$version"

@@ -27,7 +27,7 @@ std::string environment(const char* name) {
 }
 
 /// What makes a context: it stands before the command and in the folder's name.
-const char* const kContextVariables[] = {"TYNDALL_TEST_CONTEXT", "MESA_GL_VERSION_OVERRIDE",
+const char* const kContextVariables[] = {"TYNDALL_TEST_CONTEXT", "TYNDALL_TEST_PROFILE", "MESA_GL_VERSION_OVERRIDE",
                                          "MESA_GLSL_VERSION_OVERRIDE", "GALLIUM_DRIVER"};
 
 /// Quoted for a shell.

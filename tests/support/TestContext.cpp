@@ -5,6 +5,8 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <stdexcept>
+#include <string>
 
 namespace tests {
 
@@ -44,8 +46,21 @@ host::ContextKind testContextKind() {
   return name ? host::parseContextKind(name) : host::defaultContextKind();
 }
 
+host::ContextOptions testContextOptions() {
+  const char* const set = std::getenv("TYNDALL_TEST_PROFILE");
+  const std::string name = set ? set : "core";
+  host::ContextOptions options;
+  if (name == "compatibility")
+    options.profile = host::ContextProfile::Compatibility;
+  else if (name == "embedded")
+    options.profile = host::ContextProfile::Embedded;
+  else if (name != "core")
+    throw std::runtime_error("TYNDALL_TEST_PROFILE is '" + name + "': must be core, compatibility or embedded");
+  return options;
+}
+
 host::Context& testContext() {
-  static const std::unique_ptr<host::Context> context = host::Context::create(testContextKind());
+  static const std::unique_ptr<host::Context> context = host::Context::create(testContextKind(), testContextOptions());
   theContext = context.get();
   context->makeCurrent();
   return *context;

@@ -9,6 +9,10 @@ namespace tests {
 /// OSMesa and there is none, the run says so and is skipped: exit status 77.
 host::ContextKind testContextKind();
 
+/// How contexts of tests are made: of the profile that TYNDALL_TEST_PROFILE names, core, compatibility or embedded;
+/// core if it is not set.
+host::ContextOptions testContextOptions();
+
 /// The one context of this process, made when first asked for, and current on return.
 host::Context& testContext();
 

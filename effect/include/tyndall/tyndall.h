@@ -502,8 +502,10 @@ struct CreateResult;
 /// stencil and scissor test, logic operation, rasterizer discard, sRGB framebuffers, sample mask and coverage, alpha to
 /// coverage and to one, smooth polygons, dithering, clip distances; the viewport as wide and high as the frame, or as
 /// it was if nothing was drawn; the scissor box of the first viewport, where a draw was drawn in bands, that of the
-/// last one. create() and a call that finds no context, another one or transform feedback active
-/// leave all as it was.
+/// last one. In the compatibility profile also: alpha test, polygon stipple and two-sided stencil test off, the
+/// stencil's front face active, GL_CLAMP_FRAGMENT_COLOR and glPixelTransfer's scales, biases and GL_MAP_COLOR at their
+/// defaults. create() and a call that finds no context, another one, transform feedback active, a display list being
+/// compiled or a glRenderMode other than GL_RENDER leave all as it was.
 class Effect {
 public:
   /// Builds an effect in the current context: OpenGL 3.3 core or later. Shaders compile when first needed.

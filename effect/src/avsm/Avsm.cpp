@@ -168,6 +168,7 @@ AvsmResult Avsm::create(const AvsmConfig& config) {
   if (const std::string function = missingFunction(gl); !function.empty())
     return {nullptr, {StatusCode::ContextTooOld, "the loader knows no " + function}};
   if (Status s = checkLimits(gl, config); !s) return {nullptr, s};
+  if (Status s = checkLists(gl, "Avsm::create"); !s) return {nullptr, s};
   if (Status s = state->watch.finish(state->makeObjects()); !s) return {nullptr, s};
   return {std::unique_ptr<Avsm>(new Avsm(std::move(state))), {}};
 }
@@ -358,7 +359,7 @@ void Avsm::State::run(const Pass& pass, const Uniforms& uniforms, int layers) {
 // Of calls that use programs.
 Status Avsm::State::checkContext(const char* function) {
   if (Status s = watch.check(); !s) return s;
-  return checkFeedback(gl, function);
+  return checkUnderWay(gl, function);
 }
 
 Status Avsm::State::checkStreaming(const char* function) const {

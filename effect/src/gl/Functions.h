@@ -30,6 +30,8 @@ using Int64 = std::int64_t;
 using Uint64 = std::uint64_t;
 using Sync = ::__GLsync*;
 
+enum class Language { Glsl, Essl };
+
 // X(result, name, arguments, state): state names the row of StateGuard that gives back what the function changes, None
 // for functions that change nothing of the engine's (queries, draws into our targets, objects of our own).
 #define TYNDALL_GL_REQUIRED(X)                                                                                         \
@@ -66,7 +68,6 @@ using Sync = ::__GLsync*;
     (Enum target, Int level, Int x, Int y, Sizei width, Sizei height, Enum format, Enum type, const void* pixels),     \
     PixelStorage)                                                                                                      \
   X(void, PixelStorei, (Enum name, Int value), PixelStorage)                                                           \
-  X(void, GetTexImage, (Enum target, Int level, Enum format, Enum type, void* pixels), PixelStorage)                   \
   X(void, GetTexLevelParameteriv, (Enum target, Int level, Enum name, Int * value), None)                              \
   X(void, GetTexParameteriv, (Enum target, Enum name, Int * value), None)                                              \
   X(void, GenSamplers, (Sizei n, Uint * names), None)                                                                  \
@@ -85,7 +86,6 @@ using Sync = ::__GLsync*;
   X(Boolean, IsBuffer, (Uint buffer), None)                                                                            \
   X(void, GetBufferParameteriv, (Enum target, Enum name, Int * value), None)                                           \
   X(void, GetBufferParameteri64v, (Enum target, Enum name, Int64 * value), None)                                       \
-  X(void, GetBufferSubData, (Enum target, Intptr offset, Sizeiptr size, void* data), None)                             \
   X(void, GenVertexArrays, (Sizei n, Uint * names), None)                                                              \
   X(void, DeleteVertexArrays, (Sizei n, const Uint* names), None)                                                      \
   X(void, BindVertexArray, (Uint array), VertexArray)                                                                  \
@@ -115,8 +115,8 @@ using Sync = ::__GLsync*;
   X(void, GetProgramInfoLog, (Uint program, Sizei size, Sizei * length, Char * log), None)                             \
   X(void, UseProgram, (Uint program), Program)                                                                         \
   X(Int, GetUniformLocation, (Uint program, const Char* name), None)                                                   \
-  X(void, GetActiveUniformsiv, (Uint program, Sizei n, const Uint* indices, Enum name, Int* values), None)             \
-  X(void, GetActiveUniformName, (Uint program, Uint index, Sizei size, Sizei * length, Char * text), None)             \
+  X(void, GetActiveUniform,                                                                                            \
+    (Uint program, Uint index, Sizei size, Sizei * length, Int * count, Enum * type, Char * name), None)               \
   X(void, Uniform1i, (Int location, Int value), None)                                                                  \
   X(Uint, GetUniformBlockIndex, (Uint program, const Char* name), None)                                                \
   X(void, UniformBlockBinding, (Uint program, Uint index, Uint binding), None)                                         \
@@ -140,7 +140,6 @@ using Sync = ::__GLsync*;
   X(void, BlendFuncSeparate, (Enum srcRgb, Enum dstRgb, Enum srcAlpha, Enum dstAlpha), Blending)                       \
   X(void, BlendEquationSeparate, (Enum rgb, Enum alpha), Blending)                                                     \
   X(void, ColorMaski, (Uint index, Boolean r, Boolean g, Boolean b, Boolean a), ColourMasks)                           \
-  X(void, PolygonMode, (Enum face, Enum mode), PolygonMode)                                                            \
   X(void, Flush, (), None)                                                                                             \
   X(void, Finish, (), None)                                                                                            \
   X(void, GenQueries, (Sizei n, Uint * names), None)                                                                   \
@@ -148,14 +147,26 @@ using Sync = ::__GLsync*;
   X(void, BeginQuery, (Enum target, Uint query), None)                                                                 \
   X(void, EndQuery, (Enum target), None)                                                                               \
   X(void, GetQueryiv, (Enum target, Enum name, Int * value), None)                                                     \
-  X(void, QueryCounter, (Uint query, Enum target), None)                                                               \
-  X(void, GetQueryObjectui64v, (Uint query, Enum name, Uint64 * value), None)                                          \
   X(void, Clear, (Bitfield buffers), None)                                                                             \
   X(void, ColorMask, (Boolean r, Boolean g, Boolean b, Boolean a), ColourMasks)                                        \
   X(void, CopyBufferSubData, (Enum from, Enum to, Intptr fromOffset, Intptr toOffset, Sizeiptr size), None)            \
   X(Sync, FenceSync, (Enum condition, Bitfield flags), None)                                                           \
   X(Enum, ClientWaitSync, (Sync sync, Bitfield flags, Uint64 nanoseconds), None)                                       \
   X(void, DeleteSync, (Sync sync), None)
+
+// Functions that OpenGL ES lacks; null there, but for those that an extension brings under another name.
+#define TYNDALL_GL_DESKTOP(X)                                                                                          \
+  X(void, GetTexImage, (Enum target, Int level, Enum format, Enum type, void* pixels), PixelStorage)                   \
+  X(void, GetBufferSubData, (Enum target, Intptr offset, Sizeiptr size, void* data), None)                             \
+  X(void, PolygonMode, (Enum face, Enum mode), PolygonMode)                                                            \
+  X(void, QueryCounter, (Uint query, Enum target), None)                                                               \
+  X(void, GetQueryObjectui64v, (Uint query, Enum name, Uint64 * value), None)
+
+// What takes their place there; null in others.
+#define TYNDALL_GL_EMBEDDED(X)                                                                                         \
+  X(void*, MapBufferRange, (Enum target, Intptr offset, Sizeiptr size, Bitfield access), None)                         \
+  X(Boolean, UnmapBuffer, (Enum target), None)                                                                         \
+  X(void, ReadPixels, (Int x, Int y, Sizei width, Sizei height, Enum format, Enum type, void* pixels), PixelStorage)
 
 // Functions of later versions that state of later versions needs; null where the context lacks them. A loader may know
 // some that a context does not: the version decides, and where it is too low an extension (LoadFunctions.cpp).
@@ -182,26 +193,48 @@ using Sync = ::__GLsync*;
   X(void, PushDebugGroup, (Enum source, Uint id, Sizei length, const Char* message), None)                             \
   X(void, PopDebugGroup, (), None)                                                                                     \
   X(void, GetTextureParameteriv, (Uint texture, Enum name, Int * value), None)                                         \
+  X(void, ActiveStencilFaceEXT, (Enum face), Legacy)                                                                   \
   X(void, BindTextures, (Uint first, Sizei n, const Uint* textures), Textures)                                         \
   X(void, BindSamplers, (Uint first, Sizei n, const Uint* samplers), Textures)
+
+// Functions that the compatibility profile needs: null in other contexts.
+#define TYNDALL_GL_LEGACY(X)                                                                                           \
+  X(void, GetFloatv, (Enum name, Float * value), None)                                                                 \
+  X(void, ClampColor, (Enum target, Enum clamp), Legacy)                                                               \
+  X(void, PixelTransferf, (Enum name, Float value), Legacy)
 
 struct Functions {
   // NOLINTBEGIN(readability-identifier-naming): GL's names
 #define TYNDALL_GL_DECLARE(result, name, arguments, state) result(TYNDALL_GLAPI* name) arguments = nullptr;
   TYNDALL_GL_REQUIRED(TYNDALL_GL_DECLARE)
   TYNDALL_GL_OPTIONAL(TYNDALL_GL_DECLARE)
+  TYNDALL_GL_LEGACY(TYNDALL_GL_DECLARE)
+  TYNDALL_GL_DESKTOP(TYNDALL_GL_DECLARE)
+  TYNDALL_GL_EMBEDDED(TYNDALL_GL_DECLARE)
 #undef TYNDALL_GL_DECLARE
   // NOLINTEND(readability-identifier-naming)
-  int version = 0;               ///< 10 * major + minor of the context
+
+  // What the context can do: settled once, by its version and extensions (LoadFunctions.cpp).
+  Language language = Language::Glsl; ///< of its shaders; ESSL: of OpenGL ES
+  int version = 0;                    ///< 10 * major + minor of the context
+  bool compatibility = false;         ///< of the compatibility profile
+  bool indexedBlending = false;       ///< functions, factors and equations for each draw buffer
+  bool viewportArrays = false;
   bool cubeArrays = false;       ///< GL_TEXTURE_CUBE_MAP_ARRAY is a target
   bool stencilTexturing = false; ///< a texture may show its stencil in place of its depth
-  bool compatibility = false;    ///< of the compatibility profile
-  bool parallelCompile = false;  ///< it says whether a program is complete without waiting for it
-  bool debugOutput = false;      ///< GL_DEBUG_OUTPUT and debug groups
-  int clipDistances = 0;         ///< that may be enabled
+  bool normalised16 = false;     ///< textures of 16-bit normalised integers that can be drawn into
+  bool countsSamples = false;    ///< queries of how many samples passed
+  bool timerQueries = false;
+  bool feedbackQuery = false;   ///< it says whether transform feedback is active
+  bool parallelCompile = false; ///< it says whether a program is complete without waiting for it
+  bool debugOutput = false;     ///< GL_DEBUG_OUTPUT and debug groups
+  bool dualSource = false;      ///< blending with two sources
+  int clipDistances = 0;        ///< that may be enabled
 
   /// Fills the table. Returns the name of the first required function that the loader does not know, empty if all are.
   std::string load(void* (*loader)(const char*));
+  /// Likewise what only this kind of context has: desktop, embedded, of the compatibility profile.
+  std::string loadOwn(void* (*loader)(const char*));
 };
 
 } // namespace tyndall::gl

@@ -18,7 +18,7 @@ Int integer(const Functions& gl, Enum name) {
 }
 
 // Always refused: no query is called 0.
-void raiseInvalidOperation(const Functions& gl) { gl.BeginQuery(SAMPLES_PASSED, 0); }
+void raiseInvalidOperation(const Functions& gl) { gl.BeginQuery(ANY_SAMPLES_PASSED, 0); }
 
 // One without attachments is not complete.
 void raiseInvalidFramebufferOperation(const Functions& gl) {

@@ -3,7 +3,6 @@
 #include "gl/Enums.h"
 
 #include <array>
-#include <numeric>
 
 namespace tyndall::gl {
 
@@ -12,8 +11,8 @@ namespace {
 constexpr std::array<const char*, 3> kBlocks = {"FrameBlock", "LightBlock", "EpipolarBlock"};
 
 // What a sampler of this type reads; NONE for what is no sampler of ours.
-Enum targetOf(Int type) {
-  switch (static_cast<Enum>(type)) {
+Enum targetOf(Enum type) {
+  switch (type) {
   case SAMPLER_2D:
   case INT_SAMPLER_2D:
   case UNSIGNED_INT_SAMPLER_2D:
@@ -37,22 +36,6 @@ Enum targetOf(Int type) {
   }
 }
 
-std::vector<Int> uniformTypes(const Functions& gl, Uint program) {
-  Int count = 0;
-  gl.GetProgramiv(program, ACTIVE_UNIFORMS, &count);
-  std::vector<Uint> indices(static_cast<std::size_t>(count));
-  std::iota(indices.begin(), indices.end(), 0U);
-  std::vector<Int> types(indices.size());
-  if (count > 0) gl.GetActiveUniformsiv(program, count, indices.data(), UNIFORM_TYPE, types.data());
-  return types;
-}
-
-std::string uniformName(const Functions& gl, Uint program, std::size_t index) {
-  std::array<Char, 64> name{};
-  gl.GetActiveUniformName(program, static_cast<Uint>(index), static_cast<Sizei>(name.size()), nullptr, name.data());
-  return name.data();
-}
-
 } // namespace
 
 Program::Program(const Functions& gl, ProgramObject program) : program_(std::move(program)) {
@@ -62,14 +45,18 @@ Program::Program(const Functions& gl, ProgramObject program) : program_(std::mov
 }
 
 void Program::findSamplers(const Functions& gl) {
-  const std::vector<Int> types = uniformTypes(gl, name());
-  for (std::size_t i = 0; i < types.size(); ++i) {
-    const Enum target = targetOf(types[i]);
+  Int count = 0;
+  gl.GetProgramiv(name(), ACTIVE_UNIFORMS, &count);
+  for (Uint i = 0; i < static_cast<Uint>(count); ++i) {
+    std::array<Char, 64> sampler{}; // longer ones are of blocks
+    Int size = 0;
+    Enum type = NONE;
+    gl.GetActiveUniform(name(), i, static_cast<Sizei>(sampler.size()), nullptr, &size, &type, sampler.data());
+    const Enum target = targetOf(type);
     if (target == NONE) continue;
-    const std::string sampler = uniformName(gl, name(), i);
     const auto unit = static_cast<Uint>(samplers_.size());
-    gl.Uniform1i(gl.GetUniformLocation(name(), sampler.c_str()), static_cast<Int>(unit));
-    samplers_.push_back({sampler, target, unit});
+    gl.Uniform1i(gl.GetUniformLocation(name(), sampler.data()), static_cast<Int>(unit));
+    samplers_.push_back({sampler.data(), target, unit});
   }
 }
 

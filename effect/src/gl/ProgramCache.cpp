@@ -29,10 +29,10 @@ std::string logOf(Uint object, Get get, GetLog getLog) {
   return log;
 }
 
-std::vector<std::string> textsOf(const Variant& variant) {
+std::vector<std::string> textsOf(const Variant& variant, Language language) {
   std::vector<std::string> texts;
   for (const std::string& file : {variant.fragment, variant.vertex})
-    if (!file.empty()) texts.push_back(completeSource(file, variant.definitions));
+    if (!file.empty()) texts.push_back(completeSource(file, variant.definitions, language));
   return texts;
 }
 
@@ -136,7 +136,7 @@ void ProgramCache::start(Build& build) {
   build.state = Build::State::Started;
   build.program = ProgramObject(gl_);
   if (binaries_.areKept()) {
-    build.storeKey = binaries_.keyOf(textsOf(build.variant));
+    build.storeKey = binaries_.keyOf(textsOf(build.variant, gl_.language));
     if (binaries_.load(build.program.name(), build.storeKey)) return;
   }
   compile(build);
@@ -145,7 +145,7 @@ void ProgramCache::start(Build& build) {
 // GL_KHR_parallel_shader_compile: until a status is asked for, none of these calls need wait.
 void ProgramCache::compile(Build& build) {
   const Variant& variant = build.variant;
-  const std::string text = completeSource(variant.fragment, variant.definitions);
+  const std::string text = completeSource(variant.fragment, variant.definitions, gl_.language);
   build.shaders = {std::make_shared<Shader>(gl_, variant.vertex.empty() ? COMPUTE_SHADER : FRAGMENT_SHADER, text)};
   if (!variant.vertex.empty()) build.shaders.push_back(sharedVertex(variant.vertex, variant.definitions));
   for (const ShaderPointer& shader : build.shaders)
@@ -155,7 +155,7 @@ void ProgramCache::compile(Build& build) {
 }
 
 ProgramCache::ShaderPointer ProgramCache::sharedVertex(const std::string& file, const Definitions& definitions) {
-  const std::string text = completeSource(file, definitions);
+  const std::string text = completeSource(file, definitions, gl_.language);
   ShaderPointer& shader = vertexShaders_[text];
   if (!shader) shader = std::make_shared<Shader>(gl_, VERTEX_SHADER, text);
   return shader;

@@ -18,10 +18,11 @@ constexpr std::array<Enum, 6> kTargetBindings = {TEXTURE_BINDING_2D,
                                                  TEXTURE_BINDING_CUBE_MAP_ARRAY};
 
 // Whatever would keep a full-screen triangle from writing exactly its colours. Clip distances are added per context.
-constexpr std::array<Enum, 12> kCapabilities = {CULL_FACE,           DEPTH_TEST,         STENCIL_TEST,
-                                                COLOR_LOGIC_OP,      RASTERIZER_DISCARD, FRAMEBUFFER_SRGB,
-                                                SAMPLE_MASK,         SAMPLE_COVERAGE,    SAMPLE_ALPHA_TO_COVERAGE,
-                                                SAMPLE_ALPHA_TO_ONE, POLYGON_SMOOTH,     DITHER};
+constexpr std::array<Enum, 8> kCapabilities = {
+    CULL_FACE, DEPTH_TEST, STENCIL_TEST, RASTERIZER_DISCARD, SAMPLE_MASK, SAMPLE_COVERAGE, SAMPLE_ALPHA_TO_COVERAGE,
+    DITHER};
+constexpr std::array<Enum, 4> kDesktopCapabilities = {COLOR_LOGIC_OP, FRAMEBUFFER_SRGB, SAMPLE_ALPHA_TO_ONE,
+                                                      POLYGON_SMOOTH};
 
 // What transfers of two-dimensional textures look at.
 using PixelStorage = std::array<Enum, 5>;
@@ -48,16 +49,11 @@ template <typename Action>
 void forEachCapability(const Functions& gl, Action&& action) {
   for (const Enum capability : kCapabilities)
     action(capability);
+  if (gl.language == Language::Glsl)
+    for (const Enum capability : kDesktopCapabilities)
+      action(capability);
   for (int i = 0; i < gl.clipDistances; ++i)
     action(CLIP_DISTANCE0 + static_cast<Enum>(i));
-}
-
-bool hasIndexedBlending(const Functions& gl) {
-  return gl.version >= 40 && gl.BlendFuncSeparatei && gl.BlendEquationSeparatei;
-}
-
-bool hasViewportArray(const Functions& gl) {
-  return gl.version >= 41 && gl.ViewportIndexedf && gl.ScissorIndexed && gl.GetFloati_v;
 }
 
 void setClipControl(const Functions& gl, const std::array<Int, 2>& control) {
@@ -66,7 +62,7 @@ void setClipControl(const Functions& gl, const std::array<Int, 2>& control) {
 
 void setFactors(const Functions& gl, Uint buffer, const std::array<Int, 4>& factors) {
   const auto factor = [&](std::size_t k) { return static_cast<Enum>(factors[k]); };
-  if (hasIndexedBlending(gl))
+  if (gl.indexedBlending)
     gl.BlendFuncSeparatei(buffer, factor(0), factor(1), factor(2), factor(3));
   else if (buffer == 0)
     gl.BlendFuncSeparate(factor(0), factor(1), factor(2), factor(3));
@@ -74,16 +70,20 @@ void setFactors(const Functions& gl, Uint buffer, const std::array<Int, 4>& fact
 
 void setEquations(const Functions& gl, Uint buffer, const std::array<Int, 2>& equations) {
   const auto equation = [&](std::size_t k) { return static_cast<Enum>(equations[k]); };
-  if (hasIndexedBlending(gl))
+  if (gl.indexedBlending)
     gl.BlendEquationSeparatei(buffer, equation(0), equation(1));
   else if (buffer == 0)
     gl.BlendEquationSeparate(equation(0), equation(1));
 }
 
+bool hasStorage(const Functions& gl, Enum name) {
+  return gl.language == Language::Glsl || (name != UNPACK_SWAP_BYTES && name != PACK_SWAP_BYTES);
+}
+
 std::array<Int, 5> pixelStorage(const Functions& gl, const PixelStorage& names) {
   std::array<Int, 5> values{};
   for (std::size_t i = 0; i < names.size(); ++i)
-    values[i] = integer(gl, names[i]);
+    if (hasStorage(gl, names[i])) values[i] = integer(gl, names[i]);
   return values;
 }
 
@@ -91,15 +91,16 @@ std::array<Int, 5> pixelStorage(const Functions& gl, const PixelStorage& names) 
 void setPixelStorage(const Functions& gl, const PixelStorage& names, const std::array<Int, 5>& values,
                      const std::array<Int, 5>& before) {
   for (std::size_t i = 0; i < names.size(); ++i)
-    if (values[i] != before[i]) gl.PixelStorei(names[i], values[i]);
+    if (values[i] != before[i] && hasStorage(gl, names[i])) gl.PixelStorei(names[i], values[i]);
 }
 
 constexpr std::array<Int, 5> kUnknown = {-1, -1, -1, -1, -1};
 
 } // namespace
 
-StateGuard::StateGuard(const Functions& gl, StateMode mode) : gl_(gl), mode_(mode) {
+StateGuard::StateGuard(const Functions& gl, StateMode mode) : gl_(gl), mode_(mode), legacy_(gl) {
   if (restores()) {
+    legacy_.save();
     save();
     clearSaved();
   } else {
@@ -116,7 +117,7 @@ void StateGuard::save() {
   renderbuffer_ = integer(gl_, RENDERBUFFER_BINDING);
   unpackBuffer_ = integer(gl_, PIXEL_UNPACK_BUFFER_BINDING);
   unpacking_ = pixelStorage(gl_, kUnpacking);
-  gl_.GetIntegerv(POLYGON_MODE, polygonMode_);
+  if (gl_.PolygonMode) gl_.GetIntegerv(POLYGON_MODE, polygonMode_.data());
   if (gl_.ClipControl) clipControl_ = {integer(gl_, CLIP_ORIGIN), integer(gl_, CLIP_DEPTH_MODE)};
   forEachCapability(gl_, [&](Enum capability) {
     if (gl_.IsEnabled(capability)) capabilities_.push_back(capability);
@@ -162,7 +163,7 @@ void StateGuard::restore() const {
   restoreUniformBindings();
   restoreUnits();
   restoreDrawBuffers();
-  if (hasViewportArray(gl_))
+  if (gl_.viewportArrays)
     gl_.ViewportIndexedf(0, viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
   else
     gl_.Viewport(static_cast<Int>(viewport_[0]), static_cast<Int>(viewport_[1]), static_cast<Sizei>(viewport_[2]),
@@ -171,6 +172,7 @@ void StateGuard::restore() const {
   if (scissor_) setScissorTest(gl_, true);
   if (savesStencil_) restoreStencil();
   if (savesReadFramebuffer_) gl_.BindFramebuffer(READ_FRAMEBUFFER, static_cast<Uint>(readFramebuffer_));
+  legacy_.restore();
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -244,7 +246,7 @@ void StateGuard::restoreUnits() const {
 }
 
 void StateGuard::saveDrawBuffers() {
-  const bool indexed = hasIndexedBlending(gl_);
+  const bool indexed = gl_.indexedBlending;
   for (Uint i = 0; i < kDrawBuffers; ++i) {
     DrawBuffer& buffer = drawBuffers_[i];
     buffer.blend = gl_.IsEnabledi(BLEND, i);
@@ -275,7 +277,7 @@ void StateGuard::restoreDrawBuffers() const {
 }
 
 void StateGuard::saveViewport() {
-  if (hasViewportArray(gl_)) {
+  if (gl_.viewportArrays) {
     gl_.GetFloati_v(VIEWPORT, 0, viewport_.data());
     scissor_ = gl_.IsEnabledi(SCISSOR_TEST, 0);
     return;
@@ -306,7 +308,7 @@ void StateGuard::saveReadFramebuffer() {
 void StateGuard::saveScissorBox() {
   if (scissorBox_ || !restores()) return;
   scissorBox_.emplace();
-  if (hasViewportArray(gl_))
+  if (gl_.viewportArrays)
     gl_.GetIntegeri_v(SCISSOR_BOX, 0, scissorBox_->data());
   else
     gl_.GetIntegerv(SCISSOR_BOX, scissorBox_->data());
@@ -327,12 +329,13 @@ void StateGuard::restoreStencil() const {
 // What a pass expects, whatever there was.
 void StateGuard::setDefaults() const {
   forEachCapability(gl_, [&](Enum capability) { gl_.Disable(capability); });
+  legacy_.setDefaults();
   gl_.Disable(SCISSOR_TEST);
   gl_.Disable(BLEND);
   gl_.BlendFuncSeparate(ONE, ZERO, ONE, ZERO);
   gl_.BlendEquationSeparate(FUNC_ADD, FUNC_ADD);
   gl_.ColorMask(1, 1, 1, 1);
-  gl_.PolygonMode(FRONT_AND_BACK, FILL);
+  if (gl_.PolygonMode) gl_.PolygonMode(FRONT_AND_BACK, FILL);
   setClipControl(gl_, kClipDefaults);
   gl_.BindBuffer(PIXEL_UNPACK_BUFFER, 0);
   setPixelStorage(gl_, kUnpacking, kStorageDefaults, kUnknown);
@@ -387,7 +390,7 @@ PackGuard::~PackGuard() {
 }
 
 void setViewport(const Functions& gl, Int x, Int y, Sizei width, Sizei height) {
-  if (hasViewportArray(gl))
+  if (gl.viewportArrays)
     gl.ViewportIndexedf(0, static_cast<Float>(x), static_cast<Float>(y), static_cast<Float>(width),
                         static_cast<Float>(height));
   else
@@ -395,14 +398,14 @@ void setViewport(const Functions& gl, Int x, Int y, Sizei width, Sizei height) {
 }
 
 void setScissor(const Functions& gl, const std::array<Int, 4>& box) {
-  if (hasViewportArray(gl))
+  if (gl.viewportArrays)
     gl.ScissorIndexed(0, box[0], box[1], box[2], box[3]);
   else
     gl.Scissor(box[0], box[1], box[2], box[3]);
 }
 
 void setScissorTest(const Functions& gl, bool on) {
-  if (hasViewportArray(gl))
+  if (gl.viewportArrays)
     (on ? gl.Enablei : gl.Disablei)(SCISSOR_TEST, 0);
   else
     (on ? gl.Enable : gl.Disable)(SCISSOR_TEST);

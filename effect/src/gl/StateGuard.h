@@ -5,6 +5,7 @@
 
 #include "gl/Enums.h"
 #include "gl/Functions.h"
+#include "gl/LegacyState.h"
 
 #include <array>
 #include <optional>
@@ -86,8 +87,8 @@ private:
   Int unpackBuffer_ = 0;
   Int uniformBuffer_ = 0;
   Int activeUnit_ = 0;
-  Int polygonMode_[2] = {};
-  std::array<Int, 2> clipControl_{}; // origin, depth mode; where the context has them
+  std::array<Int, 2> polygonMode_{FILL, FILL}; // where the context has it
+  std::array<Int, 2> clipControl_{};           // origin, depth mode; where the context has them
   std::array<Int, 5> unpacking_{};
   std::array<Float, 4> viewport_{};
   Boolean scissor_ = 0;
@@ -101,6 +102,7 @@ private:
   bool savesStencil_ = false, savesReadFramebuffer_ = false;
   Int readFramebuffer_ = 0;
   std::array<StencilFace, 2> stencil_;
+  LegacyState legacy_;
 };
 
 /// How pixels are packed, and where to: around a read-back of pixels.

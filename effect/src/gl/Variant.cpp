@@ -23,6 +23,25 @@ bool mentions(const std::string& text, const std::string& word) {
 
 bool isCompute(const std::string& file) { return file.size() > 5 && file.substr(file.size() - 5) == ".comp"; }
 
+// ESSL knows two precisions where GLSL has one, and dual-source blending, if at all, as an extension.
+constexpr const char* kEssl = R"(#version 320 es
+#extension GL_EXT_blend_func_extended : enable
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+precision highp sampler2DArray;
+precision highp sampler2DMS;
+precision highp sampler2DMSArray;
+precision highp samplerCube;
+precision highp samplerCubeArray;
+precision highp usampler2DArray;
+)";
+
+std::string prologueOf(const std::string& file, Language language) {
+  if (language == Language::Essl) return kEssl;
+  return isCompute(file) ? "#version 430 core\n" : "#version 330 core\n";
+}
+
 } // namespace
 
 Definitions mentionedBy(const std::string& text, const Definitions& definitions) {
@@ -38,9 +57,9 @@ Definitions mentioned(const Variant& variant) {
   return mentionedBy(text, variant.definitions);
 }
 
-std::string completeSource(const std::string& file, const Definitions& definitions) {
+std::string completeSource(const std::string& file, const Definitions& definitions, Language language) {
   const std::string body = shaderSource(file);
-  std::string text = isCompute(file) ? "#version 430 core\n" : "#version 330 core\n";
+  std::string text = prologueOf(file, language);
   text += "#define UNIFORM_BLOCK(name) layout(std140) uniform name\n";
   for (const auto& [name, value] : mentionedBy(body, definitions))
     text += "#define " + name + " " + std::to_string(value) + "\n";

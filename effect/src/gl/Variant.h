@@ -1,6 +1,8 @@
 // What selects a program: its shaders and definitions, and the texts that GL is given for them.
 #pragma once
 
+#include "gl/Functions.h"
+
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,7 +26,7 @@ Definitions mentionedBy(const std::string& text, const Definitions& definitions)
 Definitions mentioned(const Variant& variant);
 
 /// The complete text of a shader as GL is given it, with those of the definitions that it mentions.
-std::string completeSource(const std::string& file, const Definitions& definitions);
+std::string completeSource(const std::string& file, const Definitions& definitions, Language language = Language::Glsl);
 
 /// Its name in errors and debuggers, another for each: files and definitions; the full-screen vertex shader goes
 /// unsaid.

@@ -155,7 +155,7 @@ void Drawer::drawVertices(const Draw& draw) {
 }
 
 void Drawer::drawBands(const Draw& draw) {
-  const bool learns = draw.bands.estimate > 0;
+  const bool learns = gl_.timerQueries && draw.bands.estimate > 0;
   if (learns) paces_.begin(draw.title, draw.bands.estimate, draw.bandCount());
   if (draw.isWhole()) endScissor();
   bool first = true;

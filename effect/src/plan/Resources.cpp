@@ -15,9 +15,8 @@ namespace {
 using E = const Extent&;
 using Format = TexelFormat;
 
-constexpr Format kGiven{}, kR8{gl::R8, gl::RED, 1}, kR32{gl::R32F, gl::RED, 4}, kRg32{gl::RG32F, gl::RG, 8},
-    kRgba32{gl::RGBA32F, gl::RGBA, 16}, kRgba16{gl::RGBA16F, gl::RGBA, 8}, kUnorm2{gl::RG16, gl::RG, 4},
-    kUnorm4{gl::RGBA16, gl::RGBA, 8}, kRgba8{gl::RGBA8, gl::RGBA, 4};
+constexpr Format kGiven{}, kR8{gl::R8, 1}, kR32{gl::R32F, 4}, kRg32{gl::RG32F, 8}, kRgba32{gl::RGBA32F, 16},
+    kRgba16{gl::RGBA16F, 8}, kUnorm2{gl::RG16, 4}, kUnorm4{gl::RGBA16, 8}, kRgba8{gl::RGBA8, 4};
 
 constexpr int kPartTexels = 256, kChunk = 64;
 
@@ -216,9 +215,9 @@ TexelFormat ofEngines(gl::Enum internal) {
   case gl::RGB32F:
     return {internal, gl::RGB, 12};
   case gl::RGB16F:
-    return {internal, gl::RGB, 6};
+    return {internal, 6};
   case gl::R11F_G11F_B10F:
-    return {internal, gl::RGB, 4};
+    return {internal, 4};
   default:
     return kRgba16;
   }

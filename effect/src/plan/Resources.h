@@ -114,8 +114,7 @@ struct Extent {
 
 struct TexelFormat {
   gl::Enum internal = 0; ///< 0: a texture that is given
-  gl::Enum channels = 0;
-  int bytes = 0; ///< of a texel
+  int bytes = 0;         ///< of a texel
 };
 
 /// How long what a texture holds is needed.

@@ -14,17 +14,47 @@ bool sameSize(const Size& a, const Size& b) {
   return a.width == b.width && a.height == b.height && a.layers == b.layers;
 }
 
+// OpenGL ES takes no other channels and types for a format, though nothing is uploaded.
+gl::Enum channelsOf(gl::Enum format) {
+  switch (format) {
+  case gl::R8:
+  case gl::R32F:
+    return gl::RED;
+  case gl::RG16:
+  case gl::RG32F:
+    return gl::RG;
+  case gl::RGB16F:
+  case gl::RGB32F:
+  case gl::R11F_G11F_B10F:
+    return gl::RGB;
+  default:
+    return gl::RGBA;
+  }
+}
+
+gl::Enum typeOf(gl::Enum format) {
+  if (format == gl::R8 || format == gl::RGBA8) return gl::UNSIGNED_BYTE;
+  return format == gl::RG16 || format == gl::RGBA16 ? gl::UNSIGNED_SHORT : gl::FLOAT;
+}
+
+// Floats hold what 16-bit integers do.
+TexelFormat heldBy(const gl::Functions& gl, const TexelFormat& format) {
+  if (gl.normalised16) return format;
+  if (format.internal == gl::RG16) return {gl::RG32F, 8};
+  if (format.internal == gl::RGBA16) return {gl::RGBA32F, 16};
+  return format;
+}
+
 } // namespace
 
 Targets::~Targets() { dropOlderThan(-1); }
 
 gl::Uint Targets::get(Resource resource, const Extent& extent, int side) {
-  const TexelFormat format = formatOf(resource, extent);
+  const TexelFormat format = heldBy(gl_, formatOf(resource, extent));
   Slot slot;
   slot.resource = resource;
   slot.size = rowOf(resource).size(extent);
   slot.format = format.internal;
-  slot.channels = format.channels;
   slot.bytesPerTexel = format.bytes;
   slot.side = side;
   const gl::Uint known = find(slot);
@@ -73,10 +103,11 @@ bool Targets::make(Slot& slot) const {
   gl_.BindTexture(target, slot.texture.name());
   gl_.TexParameteri(target, gl::TEXTURE_MAX_LEVEL, 0);
   if (slot.size.layers > 0)
-    gl_.TexImage3D(target, 0, format, slot.size.width, slot.size.height, slot.size.layers, 0, slot.channels, gl::FLOAT,
-                   nullptr);
+    gl_.TexImage3D(target, 0, format, slot.size.width, slot.size.height, slot.size.layers, 0, channelsOf(slot.format),
+                   typeOf(slot.format), nullptr);
   else
-    gl_.TexImage2D(target, 0, format, slot.size.width, slot.size.height, 0, slot.channels, gl::FLOAT, nullptr);
+    gl_.TexImage2D(target, 0, format, slot.size.width, slot.size.height, 0, channelsOf(slot.format),
+                   typeOf(slot.format), nullptr);
   gl::label(gl_, gl::TEXTURE, slot.texture.name(), rowOf(slot.resource).name);
   return errors.take() != gl::OUT_OF_MEMORY;
 }

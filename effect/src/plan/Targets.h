@@ -39,7 +39,7 @@ private:
     gl::Renderbuffer stencil; // in place of a texture
     Resource resource = Resource::Count;
     Size size;
-    gl::Enum format = 0, channels = 0;
+    gl::Enum format = 0;
     int bytesPerTexel = 1;
     int side = 0;
     int age = 0; // frames since it was needed

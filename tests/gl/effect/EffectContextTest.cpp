@@ -19,6 +19,11 @@ using tests::FakeContext;
 
 namespace {
 
+void GLAD_API_PTR sayVersion31(GLenum name, GLint* value) {
+  host::gl().GetIntegerv(name, value);
+  if (name == GL_MAJOR_VERSION) *value = 3;
+  if (name == GL_MINOR_VERSION) *value = 1;
+}
 void GLAD_API_PTR sayVersion32(GLenum name, GLint* value) {
   if (name == GL_MAJOR_VERSION)
     *value = 3;
@@ -28,7 +33,7 @@ void GLAD_API_PTR sayVersion32(GLenum name, GLint* value) {
     host::gl().GetIntegerv(name, value);
 }
 const GLubyte* GLAD_API_PTR sayDesktop32(GLenum) { return reinterpret_cast<const GLubyte*>("3.2 Old Driver"); }
-const GLubyte* GLAD_API_PTR sayEs32(GLenum) { return reinterpret_cast<const GLubyte*>("OpenGL ES 3.2 Phone"); }
+const GLubyte* GLAD_API_PTR sayEs31(GLenum) { return reinterpret_cast<const GLubyte*>("OpenGL ES 3.1 Phone"); }
 
 void requireStatus(const CreateResult& result, StatusCode code, const std::string& word) {
   INFO(result.status.message);
@@ -44,7 +49,7 @@ struct World {
   std::unique_ptr<tests::SceneRig> scene;
   std::unique_ptr<Effect> effect;
 
-  explicit World(host::ContextKind kind) : context(host::Context::create(kind)) {
+  explicit World(host::ContextKind kind) : context(host::Context::create(kind, tests::testContextOptions())) {
     scene = std::make_unique<tests::SceneRig>(24, 16, tests::RigContext::Current);
     scene->addLight(LightKind::Directional, tests::Casters::Blocks, true);
     scene->addLight(LightKind::Point);
@@ -106,8 +111,9 @@ TEST_CASE("create without a current context is refused") {
 // Functions that OpenGL 3.3 lacks, or that no frame needs.
 const std::set<std::string> kLaterFunctions = {
     "glGetFloati_v", "glViewportIndexedf", "glScissorIndexed", "glBlendFuncSeparatei", "glBlendEquationSeparatei",
-    "glPushDebugGroup", "glPopDebugGroup", "glObjectLabel", "glGetProgramBinary", "glProgramBinary",
-    "glProgramParameteri", "glClipControl", "glGetGraphicsResetStatus", "glGetGraphicsResetStatusARB",
+    "glActiveStencilFaceEXT", "glPushDebugGroup", "glPopDebugGroup", "glObjectLabel", "glGetProgramBinary",
+    "glProgramBinary", "glProgramParameteri", "glClipControl", "glGetGraphicsResetStatus",
+    "glGetGraphicsResetStatusARB",
     // of an AVSM alone
     "glDispatchCompute", "glMemoryBarrier", "glBindImageTexture", "glTexStorage3D", "glClearBufferSubData",
     // that save calls
@@ -142,9 +148,9 @@ TEST_CASE("create refuses a context that is too old") {
   requireStatus(fake.create(), StatusCode::ContextTooOld, "3.2 Old Driver");
 }
 
-TEST_CASE("create refuses OpenGL ES") {
-  const FakeContext fake({}, {{"glGetString", address(sayEs32)}});
-  requireStatus(fake.create(), StatusCode::ContextTooOld, "OpenGL ES 3.2 Phone");
+TEST_CASE("create refuses an OpenGL ES that is too old") {
+  const FakeContext fake({}, {{"glGetIntegerv", address(sayVersion31)}, {"glGetString", address(sayEs31)}});
+  requireStatus(fake.create(), StatusCode::ContextTooOld, "OpenGL ES 3.1 Phone");
 }
 
 TEST_CASE("calls without a current context, or in another, are refused") {
@@ -161,7 +167,8 @@ TEST_CASE("calls without a current context, or in another, are refused") {
   world.context->releaseCurrent();
   checkRefused("no GL context");
   {
-    const std::unique_ptr<host::Context> empty = host::Context::create(tests::testContextKind());
+    const std::unique_ptr<host::Context> empty =
+        host::Context::create(tests::testContextKind(), tests::testContextOptions());
     checkRefused("another GL context");
     CHECK(empty->takeErrors().empty());
   }

@@ -285,8 +285,8 @@ bool canDraw(const FrameCase& frameCase) {
   return testContext().glVersion() >= needed;
 }
 
-Stage::Stage(const FrameCase& frameCase, int width, int height)
-    : case_(frameCase), width_(width), height_(height), rig_(width, height),
+Stage::Stage(const FrameCase& frameCase, int width, int height, RigContext context)
+    : case_(frameCase), width_(width), height_(height), rig_(width, height, context),
       targetWidth_(width + (frameCase.elsewhere ? 9 : 0)), targetHeight_(height + (frameCase.elsewhere ? 7 : 0)),
       values_(4 * static_cast<std::size_t>(targetWidth_ * targetHeight_ * (frameCase.layered ? 2 : 1)), kBefore) {
   Frame& frame = rig_.scene.frame;

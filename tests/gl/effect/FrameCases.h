@@ -59,7 +59,7 @@ class Stage {
 public:
   static constexpr int kMapSize = 32;
 
-  explicit Stage(const FrameCase& frameCase, int width = 32, int height = 24);
+  explicit Stage(const FrameCase& frameCase, int width = 32, int height = 24, RigContext context = RigContext::Test);
 
   tyndall::Frame& frame() { return rig_.scene.frame; }
 

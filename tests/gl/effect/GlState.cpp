@@ -1,5 +1,6 @@
 #include "GlState.h"
 
+#include "LegacyState.h"
 #include "support/TestContext.h"
 
 #include <algorithm>
@@ -173,11 +174,13 @@ GlState captureGlState() {
     for (const GLenum query : {GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE})
       addIndexed(state, "uniform binding " + std::to_string(query), query, i);
   if (testContext().glVersion() >= 43) addStorage(state);
+  addLegacyState(state);
   return state;
 }
 
 Poison::Poison() {
   const GladGLContext& g = gl();
+  poisonLegacyState();
   program.use();
   g.BindVertexArray(vertexArray.name());
   g.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
@@ -284,6 +287,7 @@ void Poison::lift() {
   for (GLuint unit = 0; unit < kUnits; ++unit)
     g.BindSampler(unit, 0);
   g.ActiveTexture(GL_TEXTURE0);
+  leaveCleanLegacyState();
   if (testContext().glVersion() < 43) return;
   g.BindBuffer(GL_COPY_READ_BUFFER, 0);
   g.BindBuffer(GL_COPY_WRITE_BUFFER, 0);

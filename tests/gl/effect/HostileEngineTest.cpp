@@ -150,7 +150,8 @@ void check(const tests::HostileRow& row, const Mode& mode) {
 
 } // namespace
 
-TEST_CASE("hostile engines: the picture of a clean state, or a refusal in words, and the state given back") {
+TEST_CASE("hostile engines: the picture of a clean state, or a refusal in words, and the state given back",
+          "[compatibility]") {
   tests::testContext();
   tests::leaveCleanState();
   std::size_t turn = 0;

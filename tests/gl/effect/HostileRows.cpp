@@ -1,5 +1,6 @@
 #include "HostileRows.h"
 
+#include "LegacyState.h"
 #include "support/TestContext.h"
 
 #include <array>
@@ -416,6 +417,7 @@ const std::vector<HostileRow>& hostileRows() {
     addBindings(rows);
     addTextures(rows);
     addUnderWay(rows);
+    addLegacyRows(rows);
     rows.push_back({"much at once", [](Engine& e) { e.poison = std::make_unique<Poison>(); }, Where::Everywhere});
     return rows;
   }();

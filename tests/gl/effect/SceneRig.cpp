@@ -185,7 +185,8 @@ int SceneRig::setMultisampledDepth(int samples, GLenum format, const std::functi
   gl().BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
   gl().FramebufferTexture2D(GL_FRAMEBUFFER, isColour ? GL_COLOR_ATTACHMENT0 : host::depthAttachmentOf(format),
                             GL_TEXTURE_2D_MULTISAMPLE, depthTexture_.name(), 0);
-  gl().DrawBuffer(isColour ? GL_COLOR_ATTACHMENT0 : GL_NONE);
+  const GLenum buffer = isColour ? GL_COLOR_ATTACHMENT0 : GL_NONE;
+  gl().DrawBuffers(1, &buffer);
   host::requireCompleteFramebuffer("multisampled depth");
   gl().BindVertexArray(vertexArray.name());
   gl().Viewport(0, 0, frame.viewport.width, frame.viewport.height);

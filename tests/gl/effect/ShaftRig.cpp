@@ -180,7 +180,7 @@ double errorWhere(const reference::Image& image, const reference::Image& truth, 
 
 // ---------------------------------------------------------------------------------------------------------------------
 
-ShaftRig::ShaftRig(int width, int height) : scene(width, height) {
+ShaftRig::ShaftRig(int width, int height, RigContext context) : scene(width, height, context) {
   scene.frame.medium.constituents = {{{0.05F, 0.05F, 0.05F}, Phase::HenyeyGreenstein, 0.4F}};
   scene.frame.medium.farDistance = 40;
   const double diagonal = std::hypot(width, height); // one sample a pixel is all that a slice can have

@@ -29,7 +29,7 @@ using PixelSet = std::function<bool(int x, int y)>;
 class ShaftRig {
 public:
   /// An eye at (0, 2, 0) that looks along -z.
-  explicit ShaftRig(int width = 96, int height = 64);
+  explicit ShaftRig(int width = 96, int height = 64, RigContext context = RigContext::Test);
 
   SceneRig scene;
 

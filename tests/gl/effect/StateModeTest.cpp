@@ -2,6 +2,7 @@
 // as the header says: a table here, and all else untouched.
 #include "FrameCases.h"
 #include "GlState.h"
+#include "LegacyState.h"
 #include "support/Catch.h"
 #include "support/TestContext.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 // What a row of the state is when an effect that leaves it has drawn.
 struct LeftRow {
-  const char* name; ///< of rows in GlState.cpp, with or without an index; how they begin if it ends in ' ' or '['
+  std::string name; ///< of rows in GlState.cpp, with or without an index; how they begin if it ends in ' ' or '['
   bool anything;    ///< not said
   std::vector<double> values;
 };
@@ -56,6 +57,8 @@ const std::vector<LeftRow>& leftRows() {
           "sample coverage", "alpha to coverage", "alpha to one",       "polygon smooth",   "clip distance ",
           "unpack skip ",    "unpack swap bytes", "unpack row length",  "unpack LSB first", "unpack image height"})
       rows.push_back({off, false, {0}});
+    for (const auto& [name, values] : tests::leftLegacyState())
+      rows.push_back({name, false, values});
     return rows;
   }();
   return all;
@@ -65,10 +68,10 @@ const std::vector<LeftRow>& leftRows() {
 const LeftRow* leftRow(const std::string& name) {
   const LeftRow* best = nullptr;
   for (const LeftRow& row : leftRows()) {
-    const std::string start = row.name;
+    const std::string& start = row.name;
     const bool begins = start.back() == ' ' || start.back() == '[';
     const bool matches = begins ? name.rfind(start, 0) == 0 : name == start || name.rfind(start + "[", 0) == 0;
-    if (matches && (!best || start.size() > std::string(best->name).size())) best = &row;
+    if (matches && (!best || start.size() > best->name.size())) best = &row;
   }
   return best;
 }

@@ -2,6 +2,7 @@
 // their parameters. What states an engine may leave behind: HostileRows.cpp.
 #include "FakeContext.h"
 #include "GlState.h"
+#include "LegacyState.h"
 #include "SceneRig.h"
 #include "gl/ReadBack.h"
 #include "support/Catch.h"
@@ -72,7 +73,7 @@ void checkStateKept(const Frame& frame, bool valid = true) {
 
 } // namespace
 
-TEST_CASE("GL state on return equals GL state on entry, every row of it poisoned") {
+TEST_CASE("GL state on return equals GL state on entry, every row of it poisoned", "[compatibility]") {
   tests::testEffect();
   FullFrame full;
   const reference::ImageAnswer expected = full.rig.render();
@@ -137,6 +138,8 @@ tests::GlState left(tests::GlState state, const Frame& frame) {
     state.at(face + "fail") = state.at(face + "pass") = {GL_KEEP};
   }
   state.at("stencil depth fail") = {GL_KEEP};
+  for (const auto& [row, values] : tests::leftLegacyState())
+    state.at(row) = values;
   return state;
 }
 
@@ -161,7 +164,8 @@ bool isOfUnit(const std::string& row) { return startsWith(row, "unit "); }
 
 } // namespace
 
-TEST_CASE("with StateMode::Leave the state is as the header says, whatever it was, and nothing else of it changed") {
+TEST_CASE("with StateMode::Leave the state is as the header says, whatever it was, and nothing else of it changed",
+          "[compatibility]") {
   FullFrame full;
   for (const bool multiBind : {true, false}) {
     const tests::FakeContext fake(multiBind ? std::set<std::string>{} : std::set<std::string>{"glBindTextures"});
@@ -192,7 +196,8 @@ TEST_CASE("with StateMode::Leave the state is as the header says, whatever it wa
   }
 }
 
-TEST_CASE("with StateMode::Leave the picture is that of StateMode::Restore, whatever the state was") {
+TEST_CASE("with StateMode::Leave the picture is that of StateMode::Restore, whatever the state was",
+          "[compatibility]") {
   FullFrame full;
   const auto picture = [&] { return host::readColour(full.rig.frame.output.inscatter, 16, 16); };
   full.rig.render();

@@ -25,10 +25,13 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/FrameTexturesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameValuesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GlState.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/GlesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GlThunks.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GpuWaits.cpp
   ${CMAKE_CURRENT_LIST_DIR}/HostileEngineTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/HostileRows.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/LegacyState.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/LegacyTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/LowRankTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ReuseFrameTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ReuseMeshTest.cpp
