@@ -87,7 +87,7 @@ struct TyndallPass::Operation final : Ogre::CompositorInstance::RenderSystemOper
 TyndallPass::TyndallPass(tyndall::GlLoader loader) : copyImage_(reinterpret_cast<Copy>(loader("glCopyImageSubData"))) {
   tyndall::CreateResult created = tyndall::Effect::create({loader});
   effect_ = std::move(created.effect);
-  if (!effect_) OGRE_EXCEPT(Ogre::Exception::ERR_RENDERINGAPI_ERROR, created.status.message);
+  if (!effect_) OGRE_EXCEPT(Ogre::Exception::ERR_RENDERINGAPI_ERROR, created.status.message, "TyndallPass");
 }
 
 Ogre::CompositorInstance::RenderSystemOperation* TyndallPass::createOperation(Ogre::CompositorInstance* instance,
