@@ -35,10 +35,10 @@ build_packages="g++ cmake ninja-build pkg-config libglm-dev libeigen3-dev libstb
   libgl1-mesa-dri libglx-mesa0"
 # shellcheck disable=SC2034
 test_packages="catch2 libembree-dev python3-numpy python3-matplotlib"
-# For tests/run.sh --all: sanitizers, lint, the reference compiler of GLSL, X, Windows, a browser and Slurm. Debian 12 and 13
+# For tests/run.sh --all: sanitizers, lint, the reference compiler of GLSL, X, Windows, a browser, Slurm and OGRE. Debian 12 and 13
 # both have this version of Clang: formats and findings differ from one to the next.
 clang_version=19
 # shellcheck disable=SC2034
 all_packages="clang-$clang_version llvm-$clang_version clang-format-$clang_version clang-tidy-$clang_version
   libclang-rt-$clang_version-dev glslang-tools xvfb xauth g++-mingw-w64-x86-64 wine wine64 chromium munge slurmctld slurmd
-  slurm-client ffmpeg xz-utils"
+  slurm-client ffmpeg xz-utils libogre-1.12-dev?"

@@ -63,7 +63,7 @@ static void drawBoxes(GLuint program, const float (&clipFromView)[16], GLuint fr
   std::vector<float> boxes = {0,  -0.1F, 0, 6,    0.1F, 9, 0, 2.5F, -9, 6,    3, 0.1F, // floor and walls
                               -6, 2.5F,  0, 0.1F, 3,    9, 6, 2.5F, 0,  0.1F, 3, 9};
   for (int i = 0; i < 15; ++i) // panels of the roof
-    boxes.insert(boxes.end(), {3 * float(i % 5 - 2) + slide, 5, 6 * float(i / 5 - 1), 1.25F, 0.05F, 2.6F});
+    boxes.insert(boxes.end(), {3 * float(i % 5 - 2) + slide, 5, 6 * float(i % 3 - 1), 1.25F, 0.05F, 2.6F});
   gl.UseProgram(program);
   gl.UniformMatrix4fv(gl.GetUniformLocation(program, "clipFromView"), 1, GL_FALSE, clipFromView);
   gl.Uniform3fv(gl.GetUniformLocation(program, "boxes"), GLsizei(boxes.size() / 3), boxes.data());
@@ -75,7 +75,7 @@ static void drawBoxes(GLuint program, const float (&clipFromView)[16], GLuint fr
   gl.Disable(GL_DEPTH_TEST);
 }
 
-static bool fail(const std::string& why) { return std::fprintf(stderr, "tyndall-minimal: %s\n", why.c_str()) != 0; }
+static bool fail(const std::string& why) { return std::fprintf(stderr, "minimal-shafts: %s\n", why.c_str()) != 0; }
 
 int main() {
   // A window, GL's functions, and an effect in the window's context.

@@ -35,7 +35,7 @@ std::vector<std::uint8_t> bytesOf(Ogre::RenderWindow& window) {
 
 } // namespace
 
-Recorder::Recorder(std::string digests, std::string inscatter) : inscatter_(std::move(inscatter)) {
+Recorder::Recorder(const std::string& digests, std::string inscatter) : inscatter_(std::move(inscatter)) {
   if (!digests.empty()) digests_.open(digests);
 }
 
@@ -55,7 +55,7 @@ void Recorder::digest(Ogre::RenderWindow& window, const std::vector<Ogre::Compos
   digests_ << std::hex;
   for (Ogre::CompositorInstance* compositor : compositors)
     digests_ << hash(bytesOf(compositor->getTextureInstance("scene", 0))) << ' ';
-  digests_ << hash(bytesOf(window)) << std::endl;
+  digests_ << hash(bytesOf(window)) << '\n';
 }
 
 void Recorder::writeInscatter() {

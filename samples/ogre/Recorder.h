@@ -9,7 +9,7 @@
 class Recorder {
 public:
   /// Where to write digests and the last frame's inscatter; empty: not wanted.
-  Recorder(std::string digests, std::string inscatter);
+  Recorder(const std::string& digests, std::string inscatter);
 
   /// Has the frame write inscatter and transmittance into textures of the recorder's; not into colour, unless wanted.
   void wantOutputs(tyndall::Frame& frame, bool colourToo);

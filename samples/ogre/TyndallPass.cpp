@@ -1,10 +1,13 @@
 #include "TyndallPass.h"
 
-#include <utility>
-
 namespace {
 
-using Places = std::map<Ogre::String, tyndall::Mat4>; // of boxes around entities
+/// A box around an entity.
+struct Place {
+  tyndall::Mat4 worldFromBox;
+  bool deforms; ///< within the box, by a skeleton or vertex animation
+};
+using Places = std::map<Ogre::String, Place>;
 
 constexpr unsigned kTexture2D = 0x0DE1, kTexture2DArray = 0x8C1A; // GL's names
 
@@ -42,8 +45,10 @@ Places placesOf(Ogre::SceneManager& scene) {
     const Ogre::AxisAlignedBox& box = object->getBoundingBox();
     if (!object->isInScene() || !object->isVisible() || !box.isFinite()) continue;
     const Ogre::Vector3 halfSize = box.getHalfSize() + Ogre::Vector3(1e-4F); // which a flat one has not
-    places[name] = mat4(object->_getParentNodeFullTransform() * Ogre::Affine3::getTrans(box.getCenter()) *
-                        Ogre::Affine3::getScale(halfSize));
+    const Ogre::Affine3 cube = Ogre::Affine3::getTrans(box.getCenter()) * Ogre::Affine3::getScale(halfSize);
+    const auto& entity = static_cast<const Ogre::Entity&>(*object);
+    places[name] = {mat4(entity._getParentNodeFullTransform() * cube),
+                    entity.hasSkeleton() || entity.hasVertexAnimation()};
   }
   return places;
 }
@@ -53,13 +58,12 @@ std::vector<tyndall::MovingObject> movedObjects(const Places& last, const Places
   std::vector<tyndall::MovingObject> moved;
   for (const auto& [name, place] : now) {
     const auto known = last.find(name);
-    if (known == last.end())
-      moved.push_back({place, place});
-    else if (known->second != place)
-      moved.push_back({place, known->second});
+    const tyndall::Mat4& before = known == last.end() ? place.worldFromBox : known->second.worldFromBox;
+    if (known == last.end() || place.deforms || before != place.worldFromBox)
+      moved.push_back({place.worldFromBox, before});
   }
   for (const auto& [name, place] : last)
-    if (now.count(name) == 0) moved.push_back({place, place});
+    if (now.count(name) == 0) moved.push_back({place.worldFromBox, place.worldFromBox});
   return moved;
 }
 
@@ -87,7 +91,7 @@ struct TyndallPass::Operation final : Ogre::CompositorInstance::RenderSystemOper
 TyndallPass::TyndallPass(tyndall::GlLoader loader) : copyImage_(reinterpret_cast<Copy>(loader("glCopyImageSubData"))) {
   tyndall::CreateResult created = tyndall::Effect::create({loader});
   effect_ = std::move(created.effect);
-  if (!effect_) OGRE_EXCEPT(Ogre::Exception::ERR_RENDERINGAPI_ERROR, created.status.message);
+  if (!effect_) OGRE_EXCEPT(Ogre::Exception::ERR_RENDERINGAPI_ERROR, created.status.message, "TyndallPass");
 }
 
 Ogre::CompositorInstance::RenderSystemOperation* TyndallPass::createOperation(Ogre::CompositorInstance* instance,
@@ -115,11 +119,10 @@ void TyndallPass::render(Ogre::SceneManager& scene, Operation& operation) {
     next += count;
   }
   if (reuse) {
-    Places last = std::exchange(operation.places, placesOf(scene));
-    frame.objects = movedObjects(last, operation.places);
-    frame.reuse.changes = tyndall::Changes::Objects;
-    frame.reuse.eye = operation.eye;
-    frame.reuse.frame = ++operation.frame;
+    const Places now = placesOf(scene);
+    frame.objects = movedObjects(operation.places, now);
+    operation.places = now;
+    frame.reuse = {tyndall::Changes::Objects, operation.eye, ++operation.frame};
   }
   if (adjust) adjust(frame);
   const tyndall::Status status = effect_->render(frame);
@@ -132,13 +135,16 @@ void TyndallPass::addShadow(Ogre::SceneManager& scene, std::size_t first, std::s
                             tyndall::ShadowMap& shadow) {
   Ogre::TexturePtr texture = scene.getShadowTexture(first);
   const Ogre::uint width = texture->getWidth(), height = texture->getHeight(), layers = static_cast<Ogre::uint>(count);
-  if (layers > 1 && (!cascades_ || cascades_->getWidth() != width || cascades_->getDepth() != layers)) {
+  if (layers > 1) {
+    Ogre::TexturePtr& array = cascades_[first];
     Ogre::TextureManager& textures = Ogre::TextureManager::getSingleton();
-    if (cascades_) textures.remove(cascades_);
-    cascades_ = textures.createManual("tyndall/cascades", Ogre::RGN_INTERNAL, Ogre::TEX_TYPE_2D_ARRAY, width, height,
-                                      layers, 0, texture->getFormat());
+    if (!array || array->getWidth() != width || array->getDepth() != layers) {
+      if (array) textures.remove(array);
+      array = textures.createManual("tyndall/cascades" + std::to_string(first), Ogre::RGN_INTERNAL,
+                                    Ogre::TEX_TYPE_2D_ARRAY, width, height, layers, 0, texture->getFormat());
+    }
+    texture = array;
   }
-  if (layers > 1) texture = cascades_;
   shadow.texture = nameOf(texture);
   shadow.array = count > 1;
   shadow.clipDepth = clipDepth();

@@ -9,6 +9,7 @@
 #include <GL/glx.h>
 #include <GLFW/glfw3.h>
 #include <chrono>
+#include <cstdio>
 #include <iostream>
 
 /// Of <GLFW/glfw3native.h>, which wants headers of Xrandr.
@@ -169,15 +170,15 @@ void run(const Options& options) {
 } // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("A window of OGRE's with Tyndall's shafts.");
-  Options options;
-  describe(app, options);
-  CLI11_PARSE(app, argc, argv);
   try {
+    CLI::App app("A window of OGRE's with Tyndall's shafts.");
+    Options options;
+    describe(app, options);
+    CLI11_PARSE(app, argc, argv);
     run(options);
+    return 0;
   } catch (const std::exception& error) {
-    std::cerr << "tyndall-ogre: " << error.what() << '\n';
+    std::fprintf(stderr, "ogre-shafts: %s\n", error.what());
     return 1;
   }
-  return 0;
 }

@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 """samples/minimal as a user sees it: shafts, that move; none while Space is down; another size; Escape.
 
-minimal_test.py PROGRAM
+minimal_test.py PROGRAM [PICTURE]      PICTURE: a file for the first
 """
 import sys
 import time
 
 import numpy
+from PIL import Image
 
 from window import Window
 
@@ -18,6 +19,8 @@ def brightness(picture):
 def main():
     with Window([sys.argv[1]], "Tyndall") as window:
         window.wait("picture", lambda: window.picture().mean() > 0.05)
+        if len(sys.argv) > 2:
+            Image.fromarray((window.picture() * 255).astype("uint8")).save(sys.argv[2])
         shafts = brightness(window.picture())
         assert shafts.shape == (360, 640), shafts.shape
 
