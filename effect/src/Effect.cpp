@@ -210,7 +210,7 @@ std::vector<FramePlan> Effect::State::planAhead(const Frame& frame, const FrameT
 Status Effect::State::compileAll() {
   const gl::StateGuard guard(gl, stateMode);
   constexpr std::size_t kAtOnce = 64; // enough for a driver's threads; what does not build is known soon
-  const std::vector<gl::Variant> all = allVariants(tuning.compositing == Compositing::DualSource);
+  const std::vector<gl::Variant> all = allVariants(tuning.compositing == Compositing::DualSource, gl.cubeArrays);
   for (std::size_t first = 0; first < all.size(); first += kAtOnce) {
     const std::size_t end = std::min(first + kAtOnce, all.size());
     for (std::size_t i = first; i < end; ++i)

@@ -251,8 +251,10 @@ void fitPoint(tyndall::Light& light, const WorldGeometry& geometry, const Shadow
   const glm::dvec3 position(light.position[0], light.position[1], light.position[2]);
   std::vector<glm::dmat4> views;
   for (const glm::dvec3& axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)})
-    for (const double sign : {1.0, -1.0})
-      views.push_back(viewLooking(position, sign * axis, {0, axis.y == 0 ? 1 : 0, axis.y == 0 ? 0 : 1}));
+    for (const double sign : {1.0, -1.0}) {
+      const glm::dvec3 up(0, axis.y == 0 ? 1 : 0, axis.y == 0 ? 0 : 1);
+      views.push_back(viewLooking(position, sign * axis, !options.cubeFaces ? up : axis.y == 0 ? -up : sign * up));
+    }
   fitPyramids(light, geometry, views, 1, options);
 }
 

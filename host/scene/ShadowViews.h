@@ -13,8 +13,9 @@ namespace host {
 struct ShadowOptions {
   bool reversedDepth = false;
   tyndall::ClipDepth clipDepth = tyndall::ClipDepth::NegativeOneToOne;
-  int cascades = 1;   ///< 1 to 4, of a directional light
-  double seconds = 0; ///< the time of the pose, for smoke whose source moves
+  int cascades = 1;       ///< 1 to 4, of a directional light
+  bool cubeFaces = false; ///< of point lights: turned as GL's cube maps have them
+  double seconds = 0;     ///< the time of the pose, for smoke whose source moves
 };
 
 /// Fills light.shadow.views (matrices; layers 0, 1, ...) and light.shadow.clipDepth, and nothing else of the light.

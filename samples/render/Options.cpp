@@ -28,6 +28,11 @@ const Names<tyndall::DebugView> kViews = {{"composite", tyndall::DebugView::Comp
                                           {"inputs", tyndall::DebugView::Inputs}};
 const Names<tyndall::ShadowFilter> kFilters = {{"nearest", tyndall::ShadowFilter::Nearest},
                                                {"bilinear", tyndall::ShadowFilter::Bilinear}};
+const Names<host::MapLayout> kLayouts = {
+    {"array", host::MapLayout::Array}, {"atlas", host::MapLayout::Atlas}, {"cube", host::MapLayout::Cube}};
+const Names<tyndall::DepthEncoding> kEncodings = {{"window", tyndall::DepthEncoding::Window},
+                                                  {"axial", tyndall::DepthEncoding::Axial},
+                                                  {"radial", tyndall::DepthEncoding::Radial}};
 const Names<bool> kSwitch = {{"on", true}, {"off", false}};
 constexpr int kMaxFrame = 999999;
 constexpr int kMaxRepeat = 10000;
@@ -199,6 +204,10 @@ void addShadows(CLI::App& app, Options& options) {
   app.add_option("--medium", options.medium, "the medium, instead of the scene's")->type_name("M.json");
   app.add_option("--shadow-size", options.shadowSize, "texels per side of a shadow map (default 4096)")
       ->check(CLI::Range(1, tyndall::kMaxImageSize));
+  chooseFrom(kLayouts, app.add_option("--shadow-layout", options.mapForm.layout,
+                                      "of the maps that the effect gets: cube maps for point lights (default array)"));
+  chooseFrom(kEncodings, app.add_option("--shadow-encoding", options.mapForm.encoding,
+                                        "of their depths: distances along the axis, or from a lamp (default window)"));
   app.add_option("--cascade-fade", options.cascadeFade,
                  "share of a cascade's width over which it fades into the next (default 0.1)")
       ->check(CLI::Range(0.0, 0.5));

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <gl/Context.h>
+#include <gl/ShadowLayout.h>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -55,7 +56,8 @@ struct Options {
   int shadowSize = 4096;
   int cascades = 1;
   double cascadeFade = 0.1;
-  int avsmSize = 256; ///< texels per side
+  host::MapForm mapForm; ///< in which the effect is handed shadow and glass maps
+  int avsmSize = 256;    ///< texels per side
   int avsmNodes = 8;
   bool avsm = true;                 ///< whether smoke and strands cast shadows
   bool reversedDepth = false;       ///< of camera and shadow maps, with clip depth from 0 to 1

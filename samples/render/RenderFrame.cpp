@@ -174,9 +174,22 @@ void FrameRenderer::makeVolumeShadows() {
                    std::to_string(version / 10) + "." + std::to_string(version % 10));
 }
 
+// For the effect: surfaces read arrays.
+void FrameRenderer::layOutMaps() {
+  const host::MapForm& form = options_.mapForm;
+  const bool isPlain = form.layout == host::MapLayout::Array && form.encoding == tyndall::DepthEncoding::Window;
+  if (isPlain) return;
+  if (!shadowLayout_) shadowLayout_ = std::make_unique<host::ShadowLayout>(form);
+  laidOutMaps_.clear();
+  for (tyndall::Light& light : frame_.lights)
+    laidOutMaps_.push_back(shadowLayout_->layOut(light, options_.shadowSize));
+}
+
 void FrameRenderer::renderShadowMaps(const std::vector<glm::dmat4>& worldFromNode, double seconds, host::Notes& notes) {
   shadowMaps_.clear();
-  const host::ShadowOptions shadowOptions{options_.reversedDepth, clipDepthOf(options_), options_.cascades, seconds};
+  const bool cubeFaces = options_.mapForm.layout == host::MapLayout::Cube;
+  const host::ShadowOptions shadowOptions{options_.reversedDepth, clipDepthOf(options_), options_.cascades, cubeFaces,
+                                          seconds};
   for (tyndall::Light& light : frame_.lights) {
     addOnce(notes, host::fitShadowViews(light, scene_, worldFromNode, frame_.camera, shadowOptions));
     if (light.shadow.views.empty()) continue;
@@ -321,6 +334,7 @@ void FrameRenderer::draw(int frame) {
   if (isFirst) addOnce(notes, host::adviceOn(scene_, worldFromNode, frame_.camera));
   sceneRenderer_->renderScene(worldFromNode, frame_.camera, frame_.lights, surfaces_, sky, &frame_.medium);
   resolveDepth();
+  layOutMaps();
   if (isFirst) noteEnclosures(worldFromNode, notes);
   if (!options_.out.empty()) noteCutRadiance(notes);
   addOnce(notes_, notes);

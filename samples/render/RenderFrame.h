@@ -65,6 +65,7 @@ private:
   std::vector<tyndall::Light> makeLights(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) const;
   void renderShadowMaps(const std::vector<glm::dmat4>& worldFromNode, double seconds, host::Notes& notes);
   void makeVolumeShadows();
+  void layOutMaps();
   void noteEnclosures(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes);
   bool isKeptOut(const tyndall::Light& light);
   void noteCutRadiance(host::Notes& notes) const;
@@ -87,6 +88,8 @@ private:
   host::GlTexture inscatter_;
   host::GlTexture transmittance_;
   std::vector<host::ShadowMapTextures> shadowMaps_;
+  std::unique_ptr<host::ShadowLayout> shadowLayout_; ///< none: the maps are the effect's as they are
+  std::vector<host::LaidOutMaps> laidOutMaps_;
   std::unique_ptr<VolumeShadows> volumeShadows_; ///< none without smoke and strands, or where they cast no shadow
   std::unique_ptr<tyndall::Effect> effect_;
   std::vector<host::Bounds> meshBounds_;

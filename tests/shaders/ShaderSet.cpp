@@ -25,6 +25,7 @@ const std::map<std::string, std::vector<std::string>> kWords = {
     {"MONOCHROME", {"rgb", "grey"}},
     {"FILTER_BILINEAR", {"nearest", "bilinear"}},
     {"SHADOW_ARRAY", {"", "array"}},
+    {"SOURCE", {"texture", "array", "cube", "cube-array"}},
     {"EXITS", {"entries", "exits"}},
 };
 

@@ -72,3 +72,13 @@ TEST_CASE("shaders written as files have names and texts of their own") {
   CHECK(names.count("march-directional-one-view-nearest-grey.frag") == 1);
   CHECK(names.count("fullscreen.vert") == 1);
 }
+
+TEST_CASE("without arrays of cube maps no program samples one") {
+  const std::vector<gl::Variant> all = allVariants(true, false);
+  const auto samples = [](const gl::Variant& variant) {
+    const gl::Definitions& d = variant.definitions;
+    return std::find(d.begin(), d.end(), std::pair<std::string, int>("SOURCE", 3)) != d.end();
+  };
+  CHECK(std::none_of(all.begin(), all.end(), samples));
+  CHECK(distinct(all).size() + 2 == distinct(allVariants()).size()); // with glass, and without
+}

@@ -17,6 +17,7 @@ struct LightVariant {
   bool monochrome = false;
   bool composite = false; ///< dual-source outputs of unwarp and transmittance instead of two targets
   bool dualSource = true; ///< the context has such outputs, and uses them
+  bool cubeArrays = true; ///< the context has arrays of cube maps
 
   bool hasShares() const { return shadowViews > 0 && (glass || bilinear); }
   bool isColoured() const { return !monochrome || glass; } ///< three channels of radiance

@@ -81,13 +81,14 @@ int firstVertexOf(Pass pass, bool changes) {
   return changes ? vertices.changed : vertices.whole;
 }
 
-std::vector<gl::Variant> allVariants(bool dualSource) {
+std::vector<gl::Variant> allVariants(bool dualSource, bool cubeArrays) {
   std::vector<gl::Variant> all;
   for (std::size_t i = 0; i < static_cast<std::size_t>(Pass::Count); ++i) {
     const auto pass = static_cast<Pass>(i);
     if (!rowOf(pass).ofLights) {
       LightVariant any;
       any.dualSource = dualSource;
+      any.cubeArrays = cubeArrays;
       addVariants(pass, any, all);
       continue;
     }

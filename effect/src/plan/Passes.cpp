@@ -14,6 +14,7 @@ const Option kHashes{"ROW_HASHES", {kUndefined, 1}}, kTintSums{"TINT_SUMS", {kUn
 
 bool blendsTwoSources(O o) { return o.light.dualSource; }
 bool copiesColour(O o) { return !o.light.dualSource; }
+bool isSampled(O o) { return o.light.cubeArrays || !o.has("SOURCE", 3); }
 bool hasRows(O o) { return o.light.shadowViews > 0; }
 bool hasCurves(O o) { return o.light.curves; }
 bool hasPanes(O o) { return o.light.glass && !o.light.curves; }
@@ -141,6 +142,7 @@ std::vector<PassRow> makeRows() {
           .reads({R::ShadowMap, R::GlassColour, R::GlassDepth})
           .writes({R::ShadowCopy, R::GlassColourCopy, R::GlassDepthCopy})
           .options({{"SOURCE", {0, 1, 2, 3}}, {"GLASS", {0, 1}}})
+          .when(isSampled)
           .sameForAllLights(),
       Row(Pass::SampleDepth, "sample depth", "passes/plainDepth.frag", S::Image)
           .reads({R::EngineDepth})
@@ -398,6 +400,11 @@ std::vector<PassRow> makeRows() {
 
 bool Occurrence::has(const char* option) const {
   return std::any_of(options.begin(), options.end(), [&](const auto& o) { return o.first == option && o.second != 0; });
+}
+
+bool Occurrence::has(const char* option, int value) const {
+  return std::any_of(options.begin(), options.end(),
+                     [&](const auto& o) { return o.first == option && o.second == value; });
 }
 
 const PassRow& rowOf(Pass pass) {

@@ -140,6 +140,7 @@ struct Occurrence {
   LightVariant light;
   gl::Definitions options;
   bool has(const char* option) const; ///< and it is not 0
+  bool has(const char* option, int value) const;
 };
 
 struct PassRow {
@@ -166,8 +167,8 @@ gl::Variant variantOf(Pass pass, const LightVariant& light, const gl::Definition
 /// Vertices of its vertex shader from which on it draws a pass whole, or what has changed of it.
 int firstVertexOf(Pass pass, bool changes);
 
-/// Every program that a plan may ask for in a context with dual-source blending, or without, and some that are the same
-/// (gl::mentioned).
-std::vector<gl::Variant> allVariants(bool dualSource = true);
+/// Every program that a plan may ask for in a context with dual-source blending and arrays of cube maps, or without,
+/// and some that are the same (gl::mentioned).
+std::vector<gl::Variant> allVariants(bool dualSource = true, bool cubeArrays = true);
 
 } // namespace tyndall

@@ -1,6 +1,7 @@
 // The same texels wherever an engine keeps them: an atlas, rectangles of layers, cube maps, views of several sizes. The
 // picture is that of an array with a layer for each view.
 #include "MapLayoutRig.h"
+#include "gl/avsm/AvsmRig.h"
 #include "support/Catch.h"
 
 #include <algorithm>
@@ -164,4 +165,32 @@ TEST_CASE("a cube map's reversed depth, endless or not, is read as its matrices 
       if (endless) light.shadow.cube.farDistance = kInfinity;
       CHECK(tests::relativeError(rig->picture(Technique::Exact), array) <= 1e-4);
     }
+}
+
+TEST_CASE("smoke dims a lamp alike wherever its maps lie") {
+  if (tests::testContext().glVersion() < 43) return; // adaptive volumetric shadow maps need it
+  AvsmConfig config = tests::configOf(CurveReduction::Sorted, 16, 4, true);
+  config.layers = 6;
+  tests::AvsmRig smoke(config);
+  std::vector<tests::Captured> segments;
+  for (int face = 0; face < 6; ++face)
+    for (int y = 2; y < 14; ++y)
+      for (int x = 3 + face; x < 12; ++x)
+        segments.push_back({{x, y, face}, 0.01F, 0.08F, 0.3F});
+  smoke.capture(segments);
+  for (const bool glass : {false, true}) {
+    const std::unique_ptr<ShaftRig> rig = tests::layoutRig(LightKind::Point, glass);
+    const reference::Image clear = rig->picture(Technique::Exact);
+    Light& light = rig->scene.frame.lights[0];
+    light.curves = smoke.avsm().curves();
+    for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear})
+      for (const Technique technique : kTechniques) {
+        CAPTURE(glass, static_cast<int>(filter), static_cast<int>(technique));
+        rig->scene.frame.settings.shadowFilter = filter;
+        const reference::Image array = rig->picture(technique);
+        CHECK(tests::relativeError(array, clear) > 0.05);
+        for (const Layout layout : {Layout::Atlas, Layout::Cube})
+          CHECK(identical(pictureIn(*rig, LaidMaps(rig->scene.shadow(0), layout, 0), technique), array));
+      }
+  }
 }

@@ -215,3 +215,36 @@ TEST_CASE("distances that a fixed-point format cannot hold up to the far plane a
   spot(frame).scale.unit = 1e4;
   rig.checkAccepted(frame);
 }
+
+namespace {
+
+void GLAD_API_PTR sayCore33(GLenum name, GLint* value) {
+  gl().GetIntegerv(name, value);
+  if (name == GL_MAJOR_VERSION || name == GL_MINOR_VERSION) *value = 3;
+}
+const GLubyte* GLAD_API_PTR hideCubeArrays(GLenum name, GLuint index) {
+  const GLubyte* text = gl().GetStringi(name, index);
+  const bool hidden = text && std::string(reinterpret_cast<const char*>(text)) == "GL_ARB_texture_cube_map_array";
+  return hidden ? reinterpret_cast<const GLubyte*>("GL_TYNDALL_hidden") : text;
+}
+
+} // namespace
+
+TEST_CASE("a context without arrays of cube maps refuses one") {
+  tests::RefusalRig rig;
+  const tests::FakeContext fake(
+      {}, {{"glGetIntegerv", tests::address(sayCore33)}, {"glGetStringi", tests::address(hideCubeArrays)}});
+  const CreateResult created = fake.create();
+  INFO(created.status.message);
+  REQUIRE(created.effect);
+  Frame frame = rig.frame;
+  makeCube(lamp(frame));
+  const Status before = created.effect->render(rig.frame);
+  CHECK(before);
+  lamp(frame).array = true;
+  const Status status = created.effect->render(frame);
+  CHECK(status.code == StatusCode::InvalidFrame);
+  CHECK(status.message.find("Frame::lights[1].shadow.texture") == 0);
+  CHECK(status.message.find("GL_TEXTURE_CUBE_MAP_ARRAY needs OpenGL 4.0") != std::string::npos);
+  CHECK(created.effect->prepare(frame).status.message == status.message);
+}
