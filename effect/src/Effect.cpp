@@ -17,6 +17,9 @@
 //   glass map ----+                                 |
 //                                                   +--> inscatter, transmittance --> [composite] --> colour
 //
+//   Scene depth is the engine's texture, or what [plain depth] makes of it: a part, another size, a layer, another
+//   encoding.
+//
 //   A debug view (Settings::debugView) takes the place of [composite]:
 //
 //   inscatter, transmittance, or what passes/DebugSlices.cpp drew of the first light --> [debug view] --> colour

@@ -97,7 +97,7 @@ enum class DepthEncoding {
 /// The measure of a DepthEncoding.
 struct DepthScale {
   double unit = 1;   ///< Axial, Radial: world units of a value of 1, not 0: 1 for world units, the far plane's distance
-                     ///< for a map from 0 to 1
+                     ///< for a map from 0 to 1, whose value 1 is then sky wherever the far plane is
   double offset = 0; ///< Axial, Radial: world units of a value of 0
   double constant = 1; ///< Logarithmic: 1/world unit, > 0
   double far = 0;      ///< Logarithmic: distance at which the value is 1, world units, > 0
@@ -495,8 +495,9 @@ struct PrepareStatus {
 struct CreateResult;
 
 /// With StateMode::Leave render(), prepare() and compileAll() leave: program, vertex array, draw framebuffer,
-/// renderbuffer, the buffers for uniforms (bindings 0 to 2 too) and for unpacking pixels 0; texture units, as many as
-/// it used from 0 on, without textures and samplers, unit 0 active; GL_UNPACK_* at their defaults; blending off, its
+/// renderbuffer, the buffers for uniforms (bindings 0 to 2 too) and for unpacking pixels 0, and the read framebuffer if
+/// a layer or a viewport that does not begin at (0, 0) was copied; texture units, as many as it used from 0 on, without
+/// textures and samplers, unit 0 active; GL_UNPACK_* at their defaults; blending off, its
 /// equations GL_FUNC_ADD, its factors GL_ONE and GL_ZERO, all colours written, for all draw buffers; the stencil's
 /// function, operation and mask at their defaults; polygons filled; clip control at its default; off: culling, depth,
 /// stencil and scissor test, logic operation, rasterizer discard, sRGB framebuffers, sample mask and coverage, alpha to

@@ -113,10 +113,10 @@ constexpr ResourceRow kRows[] = {
      "where the engine wants its own inscatter and a composite"},
     {"colour copy", kRgba32, kRgba16, wideColour, always, image, image, Lifetime::Frame,
      "what the composite blends with, where not by dual-source blending"},
-    {"stand-in colour", kGiven, kGiven, always, always, image, image, Lifetime::Frame,
+    {"stand in colour", kGiven, kGiven, always, always, image, image, Lifetime::Frame,
      "what stands in for the engine's, whose format it has"},
-    {"stand-in inscatter", kGiven, kGiven, always, always, image, image, Lifetime::Frame, "the same"},
-    {"stand-in transmittance", kGiven, kGiven, always, always, image, image, Lifetime::Frame, "the same"},
+    {"stand in inscatter", kGiven, kGiven, always, always, image, image, Lifetime::Frame, "the same"},
+    {"stand in transmittance", kGiven, kGiven, always, always, image, image, Lifetime::Frame, "the same"},
     {"slice table", kRgba32, kRgba32, always, always, table, table, Lifetime::Light,
      "the slices' geometry, computed in double"},
     {"sample ends", kR32, kR32, always, always, samples, samples, Lifetime::Compared,
@@ -213,7 +213,7 @@ TexelFormat ofEngines(gl::Enum internal) {
   case gl::RGBA32F:
     return kRgba32;
   case gl::RGB32F:
-    return {internal, gl::RGB, 12};
+    return {internal, 12};
   case gl::RGB16F:
     return {internal, 6};
   case gl::R11F_G11F_B10F:
