@@ -9,10 +9,10 @@ float sampleAt(ivec2 texel, int index) {
                              : texelFetch(sceneDepthSampleLayers, ivec3(texel, depthLayer), index).r;
 }
 
-// Where the pixel's camera ray ends for one of its samples.
-float sampleEndAt(int index) {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
-  vec2 position = unjittered(gl_FragCoord.xy);
+// Where a pixel's camera ray ends for one of its samples.
+float sampleEndOf(ivec2 pixel, int index) {
+  vec2 position = unjittered(vec2(pixel) + 0.5);
   float depth = isMultisampled != 0 ? plainDepth(position, sampleAt(depthTexel(pixel), index)) : texelFetch(sceneDepth, pixel, 0).r;
   return max(rayEnd(position, depth), 0.0);
 }
+float sampleEndAt(int index) { return sampleEndOf(ivec2(gl_FragCoord.xy), index); }

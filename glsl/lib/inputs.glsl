@@ -26,9 +26,9 @@ float texelWidth(mat4 texelFromCamera, float place, float weight) {
   return weight / length(rowOf(texelFromCamera, 0).xyz - place * rowOf(texelFromCamera, 3).xyz);
 }
 
-// How far the camera sees at a window position: 3e38 where there is sky, at most 0 where there is no depth.
-float seenAt(vec2 position) {
-  float end = sampleEndAt(position, 0);
+// How far the camera sees in a pixel: 3e38 where there is sky, at most 0 where there is no depth.
+float seenIn(ivec2 pixel) {
+  float end = sampleEndOf(pixel, 0);
   return end == skyEnd ? 3e38 : end;
 }
 
@@ -46,7 +46,7 @@ int viewOf(vec3 point, out vec4 place) {
   for (int view = 0; view < viewCount; ++view) {
     vec4 q = shadowViews[view].texelFromCamera * vec4(point, 1.0);
     place = vec4(q.xyz / q.w, q.w);
-    bool within = q.w > 0.0 && all(greaterThanEqual(place.xy, vec2(0.0))) && all(lessThan(place.xy, vec2(shadowMapSize))) &&
+    bool within = q.w > 0.0 && all(greaterThanEqual(place.xy, vec2(0.0))) && all(lessThan(place.xy, vec2(shadowViews[view].size))) &&
         place.z >= shadowViews[view].nearDepth;
     if (within && (shadowViews[view].isOpen != 0 || place.z <= shadowViews[view].farDepth)) return view;
   }
@@ -54,10 +54,11 @@ int viewOf(vec3 point, out vec4 place) {
 }
 
 // A surface that the camera shows against the map.
-int surfaceInMap(vec2 position, out int view) {
+int surfaceInMap(ivec2 pixel, out int view) {
   view = -1;
+  vec2 position = unjittered(vec2(pixel) + 0.5);
   Ray ray = cameraRay(position);
-  float end = seenAt(position);
+  float end = seenIn(pixel);
   if (!(end > 0.0) || end >= 3e38) return kNothing;
   vec3 point = ray.origin + end * ray.direction;
   vec4 place;
@@ -70,12 +71,12 @@ int surfaceInMap(vec2 position, out int view) {
   float same = slope * (kSameDistance * end + kSameTexels * texelWidth(m, place.x, place.w));
   float nearest = 3e38, least = 3e38;
   for (int k = 0; k < 9; ++k) {
-    ivec2 texel = clamp(ivec2(place.xy) + ivec2(k % 3, k / 3) - 1, ivec2(0), shadowMapSize - 1);
-    float depth = casterDepth(texel, view);
+    ivec2 texel = clamp(ivec2(place.xy) + ivec2(k % 3, k / 3) - 1, ivec2(0), shadowViews[view].size - 1);
+    float depth = casterDepth(texel + firstTexel(view), view);
     nearest = min(nearest, depth);
     least = min(least, abs(depth - place.z));
   }
-  bool biased = all(greaterThan(place.xy, 0.5 * vec2(shadowMapSize))) && 2.0 * abs(place.z) > 1.0;
+  bool biased = all(greaterThan(place.xy, 0.5 * vec2(shadowViews[view].size))) && 2.0 * abs(place.z) > 1.0;
   int added = (biased ? kSpecial : 0) + (end < 1.5 * planeAt(position, 1.0) ? kAtNear : 0);
   if (least <= same) return added + kAgrees;
   if (nearest > place.z && place.z + same > shadowViews[view].farDepth) return added + kOutside; // no map holds it
@@ -99,21 +100,20 @@ vec3 windowOf(vec3 point) {
 
 // A surface that the map shows against the camera's.
 int casterInDepth(ivec2 texel, int view) {
-  float depth = casterDepth(texel, view);
+  float depth = casterDepth(texel + firstTexel(view), view);
   if (depth >= 3e38 || depth < shadowViews[view].nearDepth) return kNothing;
   mat4 m = shadowViews[view].texelFromCamera;
   vec2 place = vec2(texel) + 0.5;
   vec4 w = rowOf(m, 3);
   vec3 point = meetingPoint(rowOf(m, 0) - place.x * w, rowOf(m, 1) - place.y * w, rowOf(m, 2) - depth * w);
   vec3 seen = windowOf(point);
-  vec2 border = vec2(frameSize);
-  if (!(seen.z > 0.0) || any(lessThan(seen.xy, vec2(0.0))) || any(greaterThanEqual(seen.xy, border))) return kOutside;
+  vec2 shown = seen.xy + jitter;
+  if (!(seen.z > 0.0) || any(lessThan(shown, vec2(0.0))) || any(greaterThanEqual(shown, vec2(frameSize)))) return kOutside;
   if (!(seen.z > planeAt(seen.xy, 1.0) && seen.z < planeAt(seen.xy, 0.0))) return kOutside;
   float same = kSameDistance * seen.z + kSameTexels * texelWidth(m, place.x, dot(w, vec4(point, 1.0)));
   float nearest = 3e38, least = 3e38;
   for (int k = 0; k < 9; ++k) {
-    vec2 position = clamp(floor(seen.xy) + vec2(k % 3, k / 3) - 0.5, vec2(0.5), border - 0.5);
-    float end = seenAt(position);
+    float end = seenIn(clamp(ivec2(shown) + ivec2(k % 3, k / 3) - 1, ivec2(0), frameSize - 1));
     nearest = min(nearest, end);
     least = min(least, abs(end - seen.z));
   }

@@ -3,6 +3,7 @@
 // for each light, R8, constants of lib/inputs.glsl over 255.
 #include "shared.glsl"
 #include "lib/camera.glsl"
+#include "lib/engineDepth.glsl"
 #include "lib/depthSamples.glsl"
 #include "lib/shadowMap.glsl"
 #include "lib/inputs.glsl"
@@ -15,12 +16,12 @@ void main() {
   int found, view;
   if (point.y < CHECK_HEIGHT) {
     vec2 place = (vec2(point) + 0.5) / vec2(CHECK_WIDTH, CHECK_HEIGHT);
-    found = surfaceInMap(floor(place * vec2(frameSize)) + 0.5, view);
+    found = surfaceInMap(ivec2(place * vec2(frameSize)), view);
   } else {
     view = point.x % viewCount;
     vec2 place = vec2(float(point.x / viewCount) + 0.5, float(point.y - CHECK_HEIGHT) + 0.5) /
         vec2(ceil(float(CHECK_WIDTH) / float(viewCount)), CHECK_HEIGHT);
-    found = casterInDepth(ivec2(min(place, 0.999999) * vec2(shadowMapSize)), view);
+    found = casterInDepth(ivec2(min(place, 0.999999) * vec2(shadowViews[view].size)), view);
   }
   outCheck = vec4(float(found) / 255.0);
 }

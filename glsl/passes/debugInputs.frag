@@ -3,26 +3,26 @@
 // Reads the scene depth and the first light's shadow map. Writes the back buffer.
 #include "shared.glsl"
 #include "lib/camera.glsl"
+#include "lib/engineDepth.glsl"
 #include "lib/depthSamples.glsl"
 #include "lib/shadowMap.glsl"
 #include "lib/inputs.glsl"
 
 layout(location = 0) out vec4 outColour;
 
-float doublings(vec2 position) { return log2(max(seenAt(position), 1e-30)); }
+float doublings(ivec2 pixel) { return log2(max(seenIn(min(pixel, frameSize - 1)), 1e-30)); }
 
 void main() {
-  vec2 position = gl_FragCoord.xy;
-  int view, found = surfaceInMap(position, view) & 7;
-  float end = seenAt(position), here = floor(doublings(position));
-  bool onLine = here != floor(doublings(min(position + vec2(1.0, 0.0), vec2(frameSize) - 0.5))) ||
-      here != floor(doublings(min(position + vec2(0.0, 1.0), vec2(frameSize) - 0.5)));
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  int view, found = surfaceInMap(pixel, view) & 7;
+  float end = seenIn(pixel), here = floor(doublings(pixel));
+  bool onLine = here != floor(doublings(pixel + ivec2(1, 0))) || here != floor(doublings(pixel + ivec2(0, 1)));
   vec3 hue = clamp(abs(fract(float(view) * 0.17 + 0.33 + vec3(0.0, 2.0, 1.0) / 3.0) * 6.0 - 3.0) - 1.0, 0.0, 1.0);
   vec3 colour = view < 0 ? vec3(0.5) : 0.25 + 0.75 * hue;
   if (found == kHidden) colour *= 0.35;
   if (found == kMissing) colour = vec3(1.0, 0.0, 1.0);
   if (found == kEmpty) colour = vec3(1.0, 0.45, 0.0);
-  colour *= 1.0 - 0.5 * fract(doublings(position));
+  colour *= 1.0 - 0.5 * fract(doublings(pixel));
   if (onLine) colour = vec3(1.0);
   if (!(end > 0.0)) colour = vec3(1.0, 0.0, 0.0); // no number
   if (end >= 3e38) colour = vec3(0.05, 0.08, 0.15);

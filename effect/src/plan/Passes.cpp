@@ -344,7 +344,7 @@ std::vector<PassRow> makeRows() {
           .sameForAllLights(),
       Row(Pass::CheckInputs, "check", "passes/checkInputs.frag")
           .reads({R::ShadowMap})
-          .readsIfThere({R::SceneDepth, R::SceneDepthSamples}) // one of the two
+          .readsIfThere({R::SceneDepth, R::SceneDepthSamples, R::SceneDepthSampleLayers})
           .writes({R::InputChecks})
           .when(hasRows),
       Row(Pass::DebugSlices, "debug view", "passes/debugSlices.frag")
@@ -390,7 +390,7 @@ std::vector<PassRow> makeRows() {
           .joins(Joining::OverwriteRgb)
           .sameForAllLights(),
       Row(Pass::DebugInputs, "debug view", "passes/debugInputs.frag")
-          .readsIfThere({R::SceneDepth, R::SceneDepthSamples, R::ShadowMap})
+          .readsIfThere({R::SceneDepth, R::SceneDepthSamples, R::SceneDepthSampleLayers, R::ShadowMap})
           .into(Into::Colour)
           .joins(Joining::OverwriteRgb),
   };

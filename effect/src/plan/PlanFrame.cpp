@@ -267,10 +267,12 @@ void FramePlanner::planMean(gl::Uint image) {
 LightPlanner FramePlanner::mapOf(std::size_t light) {
   const FrameTextures::Shadow& map = in_.textures.shadows[light];
   passes_.frameBlock = out_.plan.add(optics::frameBlock(frame_, {in_.textures.depthSamples, 0, 0, 0}));
-  const DrawnLight drawn{light, nameOf(frame_, light), frame_.settings,
-                         optics::lightBlock(frame_, frame_.lights[light], map.width, map.height),
-                         variantOf(frame_, frame_.lights[light], passes_.variant.dualSource, false)};
-  return {passes_, frame_, drawn, in_.textures};
+  const DrawnLight drawn{light,           nameOf(frame_, light),
+                         frame_.settings, optics::lightBlock(frame_, frame_.lights[light], map.width, map.height),
+                         map.copies,      variantOf(frame_, frame_.lights[light], passes_.variant.dualSource, false)};
+  LightPlanner planner{passes_, frame_, drawn, in_.textures};
+  planner.copyMaps();
+  return planner;
 }
 
 // Of the first light that has a map.
@@ -282,6 +284,7 @@ void FramePlanner::planInputs() {
 }
 
 void FramePlanner::planCheck() {
+  planDepth();
   for (std::size_t i = 0; i < frame_.lights.size(); ++i) {
     if (frame_.lights[i].shadow.texture == 0) continue;
     LightPlanner light = mapOf(i);
