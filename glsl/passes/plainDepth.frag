@@ -1,7 +1,7 @@
 // Plain depth: one depth a pixel out of a part of the engine's texture, of another size, a layer, of several samples or in another
 // encoding: what all other passes read in its place. Reads engineDepth: DEPTH_SOURCE 0 a texture, 1 an array, 2 a multisampled one, 3 an
 // array of those. Writes plainDepth: image size, R32F, as lib/engineDepth.glsl says; of several samples RG32F: their mean, and 0, where
-// they show one surface, else one of them, and 1; or sampleDepth, R32F: the one that depthSample names.
+// they show one surface, else the first of them, and 1; or sampleDepth, R32F: the one that depthSample names.
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/engineDepth.glsl"
@@ -29,10 +29,10 @@ const float kOneSurface = 1.02; // of the ends of a pixel's rays: between them l
 
 // Window depth is linear over a plane, and so the mean is the depth in the samples' middle.
 vec2 oneDepth() {
-  float first = depthOf(0), chosen = first, off = 0.0, skies = 0.0, nearest = 3e38, farthest = -3e38;
+  float first = depthOf(0), chosen = first, off = 0.0, skies = 0.0, nearest = 3e38, farthest = -1.0;
   for (int k = 0; k < depthSampleCount; ++k) {
     float depth = depthOf(k), end = rayEnd(unjittered(gl_FragCoord.xy), depth); // -1 where it is NaN
-    if (end > farthest) chosen = depth;
+    if (farthest < 0.0) chosen = depth;
     off += depth - first;
     skies += depthOffset + depthScale * depth <= 0.0 ? 1.0 : 0.0;
     nearest = min(nearest, end);
