@@ -9,10 +9,12 @@ float sampleAt(ivec2 texel, int index) {
                              : texelFetch(sceneDepthSampleLayers, ivec3(texel, depthLayer), index).r;
 }
 
+float sampleDepthAt(int index) {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  return isMultisampled != 0 ? plainDepth(unjittered(gl_FragCoord.xy), sampleAt(depthTexel(pixel), index)) : texelFetch(sceneDepth, pixel, 0).r;
+}
+
 // Where the pixel's camera ray ends for one of its samples.
 float sampleEndAt(int index) {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
-  vec2 position = unjittered(gl_FragCoord.xy);
-  float depth = isMultisampled != 0 ? plainDepth(position, sampleAt(depthTexel(pixel), index)) : texelFetch(sceneDepth, pixel, 0).r;
-  return max(rayEnd(position, depth), 0.0);
+  return max(rayEnd(unjittered(gl_FragCoord.xy), sampleDepthAt(index)), 0.0);
 }

@@ -19,6 +19,8 @@ enum class Pass {
   CopyColour,
   CompositeOfCopy,
   CopyToOutput,
+  EdgeSamples,
+  MoreEdgeSamples,
   SampleDepth,
   Edges,
   // A light's rows and slices (passes/Epipolar.cpp has the picture).
@@ -44,6 +46,8 @@ enum class Pass {
   MarchExtra,
   Interpolate,
   Unwarp,
+  UnwarpEdges,
+  EdgeLight,
   Unserved,
   UnservedTiles,
   FixupAlongRow,

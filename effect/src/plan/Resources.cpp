@@ -20,6 +20,8 @@ constexpr int kPartTexels = 256, kChunk = 64;
 
 bool always(E) { return true; }
 bool sampledDepth(E e) { return e.sampledDepth; }
+bool fiveSamples(E e) { return e.depthSamples > 4; }
+bool nineSamples(E e) { return e.depthSamples > 8; }
 bool wideColour(E e) { return e.wideColour; }
 bool coloured(E e) { return e.coloured; }
 bool floatRows(E e) { return e.floatRows; }
@@ -97,6 +99,12 @@ constexpr ResourceRow kRows[] = {
      "the scene depth out of a larger, smaller, layered, multisampled or encoded one"},
     {"sample depth", kR32, kR32, always, always, image, image, Lifetime::Frame,
      "the same: of one sample, where a pixel's differ"},
+    {"first samples", kRgba32, kRgba32, always, always, image, image, Lifetime::Frame, "the same: of four of them"},
+    {"second samples", kRgba32, kRgba32, always, fiveSamples, image, image, Lifetime::Frame, "the same: of more"},
+    {"third samples", kRgba32, kRgba32, always, nineSamples, image, image, Lifetime::Frame, "the same: of more"},
+    {"fourth samples", kRgba32, kRgba32, always, nineSamples, image, image, Lifetime::Frame, "the same: of more"},
+    {"edge inscatter", kRgba32, kRgba32, always, always, image, image, Lifetime::Frame,
+     "the same: what unwarp makes of those"},
     {"inscatter", kRgba32, kRgba32, always, always, image, image, Lifetime::Eye,
      "where the engine wants its own transmittance and a composite"},
     {"transmittance", kRgba32, kRgba32, always, always, image, image, Lifetime::Eye,
