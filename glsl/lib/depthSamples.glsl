@@ -9,10 +9,13 @@ float sampleAt(ivec2 texel, int index) {
                              : texelFetch(sceneDepthSampleLayers, ivec3(texel, depthLayer), index).r;
 }
 
+float sampleDepthOf(ivec2 pixel, int index) {
+  return isMultisampled != 0 ? plainDepth(unjittered(vec2(pixel) + 0.5), sampleAt(depthTexel(pixel), index)) : texelFetch(sceneDepth, pixel, 0).r;
+}
+float sampleDepthAt(int index) { return sampleDepthOf(ivec2(gl_FragCoord.xy), index); }
+
 // Where a pixel's camera ray ends for one of its samples.
 float sampleEndOf(ivec2 pixel, int index) {
-  vec2 position = unjittered(vec2(pixel) + 0.5);
-  float depth = isMultisampled != 0 ? plainDepth(position, sampleAt(depthTexel(pixel), index)) : texelFetch(sceneDepth, pixel, 0).r;
-  return max(rayEnd(position, depth), 0.0);
+  return max(rayEnd(unjittered(vec2(pixel) + 0.5), sampleDepthOf(pixel, index)), 0.0);
 }
 float sampleEndAt(int index) { return sampleEndOf(ivec2(gl_FragCoord.xy), index); }

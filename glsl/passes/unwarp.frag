@@ -1,16 +1,13 @@
 // Unwarp: from slices to pixels, bilinear over two slices and two samples each, each sample weighted by how well its
 // distance agrees with the pixel's (Yusov 2013, "Transformation from epipolar to rectangular coordinates"). A pixel that no
 // sample serves, or whose samples differ by a share of the picture's mean, is discarded, so that its stencil stays for the
-// fix-up. Reads the slice table, epipolarInscatter, the scene depth and, with SPREAD 1 (never with COMPOSITE), meanLight; SAMPLES 1: the plain
-// depth as sceneDepth and a multisampled one. Writes inscatter and transmittance as exact.frag does.
+// fix-up. Reads the slice table, epipolarInscatter, the scene depth and, with SPREAD 1 (never with COMPOSITE), meanLight; SAMPLES, for
+// edges of a multisampled depth: firstSamples, ... of plainDepth.frag. Writes inscatter and transmittance as exact.frag does; SAMPLES: to
+// edgeInscatter, image size, RGBA32F, and discards nothing: alpha 0 where one of the samples is not served.
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
 #include "lib/depth.glsl"
-#if SAMPLES
-#include "lib/engineDepth.glsl"
-#include "lib/depthSamples.glsl"
-#endif
 #include "lib/slices.glsl"
 #define Light vec3
 #include "lib/stored.glsl"
@@ -26,7 +23,22 @@ vec3 spreadUnit; // radiance of a unit of stored light at this pixel, as a part 
 #include "lib/outputs.glsl"
 #else
 layout(location = 0) out vec4 outInscatter;
+#ifndef SAMPLES
 layout(location = 1) out vec4 outTransmittance;
+#endif
+#endif
+
+#ifdef SAMPLES
+uniform sampler2D firstSamples;
+uniform sampler2D secondSamples;
+uniform sampler2D thirdSamples;
+uniform sampler2D fourthSamples;
+
+// The depth of a sample, of those of a pixel.
+float depthOf(vec4 first, vec4 second, vec4 third, vec4 fourth, int index) {
+  vec4 four = index < 4 ? first : index < 8 ? second : index < 12 ? third : fourth;
+  return four[index & 3];
+}
 #endif
 
 // Sums over samples: inscatter and weight of the bilateral filter; inscatter, end coordinate and weight of the plain
@@ -95,29 +107,29 @@ vec3 radianceOf(vec4 light, Ray ray) { return min(radianceUnit(ray) * lightOf(li
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec2 position = unjittered(gl_FragCoord.xy);
-  float end = max(rayEnd(position, depthAt(pixel)), 0.0), place = sliceCoordinate(position);
+  float place = sliceCoordinate(position);
   Ray ray = cameraRay(position);
 #if SPREAD
   spreadUnit = radianceUnit(ray) / max(texelFetch(meanLight, ivec2(0), 0).r, 1e-37);
 #endif
-#if SAMPLES
-  // Where they show several surfaces, the mean over all samples; elsewhere there is one depth.
-  int count = texelFetch(sceneDepth, pixel, 0).g != 0.0 ? depthSampleCount : 1;
-  vec3 radiance = vec3(0.0), transmittance = vec3(0.0);
-  bool served = true;
-  for (int k = 0; k < count; ++k) {
-    float own = count > 1 ? sampleEndAt(k) : end;
-    vec4 light = lightTo(own, ray, position, place);
-    served = served && isServed(light);
-    radiance += radianceOf(light, ray) / float(count);
-    transmittance += transmittanceTo(own) / float(count);
+#ifdef SAMPLES
+  // At edges, the mean over all samples.
+  vec4 first = texelFetch(firstSamples, pixel, 0), second = texelFetch(secondSamples, pixel, 0), third = texelFetch(thirdSamples, pixel, 0),
+       fourth = texelFetch(fourthSamples, pixel, 0);
+  vec3 radiance = vec3(0.0);
+  bool served = !isNearLight(position);
+  for (int k = 0; k < depthSampleCount; ++k) {
+    vec4 light = lightTo(max(rayEnd(position, depthOf(first, second, third, fourth, k)), 0.0), ray, position, place);
+    bool own = isServed(light);
+    served = served && own;
+    if (own) radiance += radianceOf(light, ray) / float(depthSampleCount);
   }
-  if (isNearLight(position) || !served) discard;
+  outInscatter = vec4(radiance, served ? 1.0 : 0.0);
 #else
+  float end = max(rayEnd(position, depthAt(pixel)), 0.0);
   vec4 light = lightTo(end, ray, position, place);
   if (isNearLight(position) || !isServed(light)) discard;
-  vec3 radiance = radianceOf(light, ray), transmittance = transmittanceTo(end);
+  outInscatter = vec4(radianceOf(light, ray), 0.0);
+  outTransmittance = vec4(transmittanceTo(end), 1.0);
 #endif
-  outInscatter = vec4(radiance, 0.0);
-  outTransmittance = vec4(transmittance, 1.0);
 }

@@ -30,10 +30,12 @@ Rectangle depthRectangle(const Frame& frame) {
   return isGiven ? given : frame.viewport;
 }
 
-bool isPlain(const Frame& frame) {
+bool isPlain(const Frame& frame) { return isWhole(frame) && !frame.depth.multisampled; }
+
+bool isWhole(const Frame& frame) {
   const Rectangle shown = depthRectangle(frame);
-  return frame.depth.encoding == DepthEncoding::Window && frame.depth.layer < 0 && !frame.depth.multisampled &&
-         shown.x == 0 && shown.y == 0 && shown.width == frame.viewport.width && shown.height == frame.viewport.height;
+  return frame.depth.encoding == DepthEncoding::Window && frame.depth.layer < 0 && shown.x == 0 && shown.y == 0 &&
+         shown.width == frame.viewport.width && shown.height == frame.viewport.height;
 }
 
 void setEngineDepth(blocks::FrameBlock& block, const Frame& frame, float rounding) {

@@ -35,27 +35,22 @@ Tables planLowRank(LightPlanner& light) {
   return {true, usesTintSums(light)};
 }
 
-// All pixels; of several samples those that show one surface, and the others as a mean over them.
-void drawPixels(LightPlanner& light, Pass pass, const gl::Definitions& options) {
-  if (!light.extent.sampledDepth) return light.drawLight(pass, {options});
-  light.drawLight(pass, {options, kOnlyUnserved});
-  samples::planMean(light, pass, {options, kOnlyServed});
-}
-
 } // namespace
 
 void plan(LightPlanner& light) {
   const Tables tables = planLowRank(light);
-  if (light.extent.sampledDepth) samples::planEdges(light);
   for (int draw = 0; draw < light.draws(); ++draw) {
     light.selectDraw(draw);
     rows::plan(light, tables.tintSums ? rows::Walk::TintSums : rows::Walk::Lit);
     if (tables.tintSums) tint_sums::plan(light);
     light.plan.marched += light.pixels();
+    if (light.extent.sampledDepth && light.firstLight && draw == 0)
+      light.draw(Pass::Transmittance, rowOf(Pass::Transmittance).name, {{}, onEdges({})});
     if (tables.lowRank)
-      drawPixels(light, Pass::PixelsByLowRank, tables.tintSums ? gl::Definitions{{"TINT_SUMS", 1}} : gl::Definitions{});
+      samples::drawLight(light, Pass::PixelsByLowRank,
+                         {tables.tintSums ? gl::Definitions{{"TINT_SUMS", 1}} : gl::Definitions{}});
     else
-      drawPixels(light, Pass::PixelTree, {});
+      samples::drawLight(light, Pass::PixelTree, {});
   }
 }
 

@@ -2,11 +2,11 @@
 
 namespace tyndall::passes::samples {
 
+namespace {
+
 // Each sample's depth takes the place of the pixel's; of each comes its share of the light. Transmittance, as a mean,
 // and what is in the target come first, so that all samples are added.
 void planMean(LightPlanner& light, Pass pass, const DrawOptions& options) {
-  if (light.firstLight && light.drawIndex == 0)
-    light.draw(Pass::Transmittance, rowOf(Pass::Transmittance).name, {{}, options.stencil});
   const int samples = light.paths.depthSamples, frameBlock = light.frameBlock, lightBlock = light.lightBlock;
   const gl::Uint depth = light.board[Resource::SceneDepth];
   const auto share = 1 / static_cast<float>(samples);
@@ -22,17 +22,22 @@ void planMean(LightPlanner& light, Pass pass, const DrawOptions& options) {
     light.draw(Pass::SampleDepth, {light.depthSource(), options.stencil});
     light.board[Resource::SceneDepth] = light.board[Resource::SampleDepth];
     light.draw(pass, adding);
+    adding.counting = {}; // of pixels, not of samples
   }
   light.frameBlock = frameBlock;
   light.lightBlock = lightBlock;
   light.board[Resource::SceneDepth] = depth;
 }
 
-void planEdges(LightPlanner& light) {
-  DrawOptions options{{}, kMarkServed};
-  options.adds = true;
-  light.clearStencil();
-  light.draw(Pass::Edges, options);
+} // namespace
+
+void drawLight(LightPlanner& light, Pass pass, const DrawOptions& options) {
+  if (!light.extent.sampledDepth) return light.drawLight(pass, options);
+  DrawOptions off = options, on = options;
+  off.stencil = offEdges(options.stencil);
+  on.stencil = onEdges(options.stencil);
+  light.drawLight(pass, off);
+  planMean(light, pass, on);
 }
 
 } // namespace tyndall::passes::samples

@@ -6,10 +6,7 @@
 
 namespace tyndall::passes::samples {
 
-/// Draws a pass of the light over what the stencil lets through, once for each of a pixel's samples, as their mean.
-void planMean(LightPlanner& light, Pass pass, const DrawOptions& options);
-
-/// Marks those pixels as served, in a stencil that has none so far.
-void planEdges(LightPlanner& light);
+/// As light.drawLight(); of a multisampled depth the pixels at edges once for each of their samples.
+void drawLight(LightPlanner& light, Pass pass, const DrawOptions& options);
 
 } // namespace tyndall::passes::samples

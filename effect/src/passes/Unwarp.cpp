@@ -9,18 +9,13 @@ namespace tyndall::passes::unwarp {
 
 namespace {
 
-void drawMarched(LightPlanner& light, Pass pass, const DrawOptions& options) {
-  if (light.extent.sampledDepth) return samples::planMean(light, pass, options);
-  light.drawLight(pass, options);
-}
-
 // The few pixels that no sample serves: along their slice's row. With several draws only the last one's rows are at
 // hand, and to make them all again would take longer than every texel does.
 void planUnserved(LightPlanner& light, const Counting& counting) {
   const DrawOptions options{{}, kOnlyUnserved, counting};
   const bool ahead = !light.allocator.makes(); // another camera has other slices
   if (light.draws() > 1 || ahead) light.drawLight(Pass::FixupAllTexels, options);
-  if (light.draws() == 1 || ahead) drawMarched(light, Pass::FixupAlongRow, options);
+  if (light.draws() == 1 || ahead) samples::drawLight(light, Pass::FixupAlongRow, options);
 }
 
 // Those pixels and the many between slices that disagree: along their own line.
@@ -29,8 +24,20 @@ void planBetweenSlices(LightPlanner& light) {
     light.selectDraw(draw);
     if (light.draws() > 1) rows::plan(light); // only the last draw's rows are at hand
     rows::planPairs(light);
-    drawMarched(light, Pass::FixupOwnLine, {{}, kOnlyUnserved});
+    samples::drawLight(light, Pass::FixupOwnLine, {{}, kOnlyUnserved});
   }
+}
+
+// Apart from the rest, so that the stencil keeps other pixels from being shaded: what discards and marks does not.
+void planEdges(LightPlanner& light, const gl::Definitions& options) {
+  const bool direct = light.variant.composite;
+  light.variant.composite = false;
+  light.draw(Pass::UnwarpEdges, {options, onEdges({})});
+  light.variant.composite = direct;
+  if (light.firstLight) light.draw(Pass::Transmittance, rowOf(Pass::Transmittance).name, {{}, onEdges({})});
+  DrawOptions adding{{}, onEdges(kMarkServed)};
+  adding.adds = true;
+  light.draw(Pass::EdgeLight, adding);
 }
 
 // The tiles that hold a pixel to fix up.
@@ -51,15 +58,17 @@ void plan(LightPlanner& light) {
   const bool whole = light.drawnTiles == 0 && !light.drawsMarked; // else how many pixels are drawn is not known
   light.selectDraw(0);
   light.clearStencil();
-  light.draw(Pass::Unwarp, {{{"SPREAD", spread ? 1 : 0}, {"SAMPLES", light.extent.sampledDepth ? 1 : 0}},
-                            kMarkServed,
-                            whole ? Counting{Count::Served, light.pixels()} : Counting{}});
+  const bool samples = light.extent.sampledDepth;
+  const gl::Definitions spreads = {{"SPREAD", spread ? 1 : 0}};
+  Counting counting = whole && !samples ? Counting{Count::Served, light.pixels()} : Counting{};
+  light.draw(Pass::Unwarp, {spreads, samples ? offEdges(kMarkServed) : kMarkServed, counting});
+  if (samples) planEdges(light, spreads);
   const gl::Uint tiles = light.drawnTiles;
   if (light.tuning.fixup == Masking::Tiles) light.drawnTiles = planTiles(light);
   if (spread)
     planBetweenSlices(light);
   else
-    planUnserved(light, whole ? Counting{} : Counting{Count::FixedUp});
+    planUnserved(light, whole && !samples ? Counting{} : Counting{Count::FixedUp});
   light.drawnTiles = tiles;
 }
 

@@ -32,6 +32,7 @@ enum class Blend {
 struct Stencil {
   static constexpr gl::Uint kServed = 1;  ///< by unwarp
   static constexpr gl::Uint kChanged = 2; ///< temporal reuse: it is drawn anew
+  static constexpr gl::Uint kEdge = 4;    ///< its samples show several surfaces
   static constexpr gl::Uint kAll = 0xFF;
 
   gl::Uint tested = 0;   ///< bits that must be as `required` has them
@@ -43,7 +44,11 @@ struct Stencil {
   }
 };
 inline constexpr Stencil kMarkServed{0, 0, Stencil::kServed}, kMarkChanged{0, 0, Stencil::kChanged},
-    kOnlyUnserved{Stencil::kServed}, kOnlyServed{Stencil::kServed, Stencil::kServed};
+    kMarkEdges{0, 0, Stencil::kEdge}, kOnlyUnserved{Stencil::kServed};
+constexpr Stencil onEdges(const Stencil& s) {
+  return {s.tested | Stencil::kEdge, s.required | Stencil::kEdge, s.marked};
+}
+constexpr Stencil offEdges(const Stencil& s) { return {s.tested | Stencil::kEdge, s.required, s.marked}; }
 
 struct Viewport {
   int x = 0, y = 0, width = 0, height = 0;

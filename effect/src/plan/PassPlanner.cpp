@@ -77,8 +77,12 @@ void PassPlanner::clear(Resource resource, float red) {
 }
 
 void PassPlanner::clearStencil() {
+  clearStencil(drawsMarked || extent.sampledDepth ? Stencil::kServed : Stencil::kAll);
+}
+
+void PassPlanner::clearStencil(gl::Uint bits) {
   const gl::Uint target = destinationTarget(blendOf(Joining::SumOfLights, false), true);
-  plan.steps.emplace_back(Clear{target, drawsMarked ? Stencil::kServed : Stencil::kAll});
+  plan.steps.emplace_back(Clear{target, bits});
 }
 
 gl::Uint PassPlanner::textureOf(Resource resource) {

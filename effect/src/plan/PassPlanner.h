@@ -68,13 +68,12 @@ public:
   void drawLight(Pass pass, const DrawOptions& options = {}) { drawLight(pass, titleOf(rowOf(pass).name), options); }
   void clear(Resource resource, float red); ///< of the whole image
   void clearStencil();                      ///< of what unwarp marks
+  void clearStencil(gl::Uint bits);
   std::uint64_t pixels() const {
     return static_cast<std::uint64_t>(extent.width) * static_cast<std::uint64_t>(extent.height);
   }
   /// What plainDepth.frag is told of the engine's texture.
-  gl::Definitions depthSource() const {
-    return {{"DEPTH_SOURCE", (depthLayer < 0 ? 0 : 1) + (extent.sampledDepth ? 2 : 0)}};
-  }
+  gl::Definitions depthSource() const { return {{"DEPTH_SOURCE", depthSourceIndex}}; }
   void skip(const std::string& pass, const std::string& why) { plan.skip(titleOf(pass), why); }
 
   Allocator& allocator;
@@ -86,7 +85,7 @@ public:
   Extent extent;
   LightVariant variant;
   RayPaths paths;
-  int depthLayer = -1;              ///< of the scene depth; -1: it is no array
+  int depthSourceIndex = 0;         ///< which kind of texture the scene depth comes from (plainDepth.frag)
   const BandPaces* paces = nullptr; ///< what is known of earlier frames' draws
   Destination destination;
   std::string name;       ///< of the light, for statistics; else empty

@@ -10,7 +10,7 @@ using R = Resource;
 using O = const Occurrence&;
 
 const Option kHashes{"ROW_HASHES", {kUndefined, 1}}, kTintSums{"TINT_SUMS", {kUndefined, 1}},
-    kStripsOfRows{"STRIPS_OF_ROWS", {1}};
+    kStripsOfRows{"STRIPS_OF_ROWS", {1}}, kEdges{"EDGES", {1}};
 
 bool blendsTwoSources(O o) { return o.light.dualSource; }
 bool copiesColour(O o) { return !o.light.dualSource; }
@@ -24,6 +24,7 @@ bool hasRowDepths(O o) {
 }
 bool hasTree(O o) { return hasRows(o) && (!o.has("TINT_SUMS") || hasPanes(o)); }
 bool hasLowRank(O o) { return !o.has("TINT_SUMS") || hasPanes(o); }
+bool isNotComposite(O o) { return !o.light.composite; }
 bool isUnwarped(O o) { return !o.light.composite || !o.has("SPREAD"); }
 bool comparesRows(O o) { return hasRows(o) && o.has("ROW_HASHES") == o.light.hasShares(); }
 
@@ -104,7 +105,7 @@ std::vector<PassRow> makeRows() {
       Row(Pass::PlainDepth, "plain depth", "passes/plainDepth.frag")
           .reads({R::EngineDepth})
           .writes({R::PlainDepth})
-          .options({{"DEPTH_SOURCE", {0, 1, 2, 3}}})
+          .options({{"DEPTH_SOURCE", {0, 1, 2, 3, 4}}})
           .sameForAllLights(),
       Row(Pass::Exact, "exact", "passes/exact.frag", S::Image)
           .readsIfThere({R::SceneDepth, R::SceneDepthSamples, R::SceneDepthSampleLayers}) // one of the three
@@ -144,10 +145,20 @@ std::vector<PassRow> makeRows() {
           .options({{"SOURCE", {0, 1, 2, 3}}, {"GLASS", {0, 1}}})
           .when(isSampled)
           .sameForAllLights(),
+      Row(Pass::EdgeSamples, "edge samples", "passes/plainDepth.frag")
+          .reads({R::EngineDepth})
+          .writes({R::FirstSamples, R::SecondSamples})
+          .options({{"DEPTH_SOURCE", {2, 3, 4}}, kEdges})
+          .sameForAllLights(),
+      Row(Pass::MoreEdgeSamples, "edge samples", "passes/plainDepth.frag")
+          .reads({R::EngineDepth})
+          .writes({R::ThirdSamples, R::FourthSamples})
+          .options({{"DEPTH_SOURCE", {2, 3, 4}}, kEdges})
+          .sameForAllLights(),
       Row(Pass::SampleDepth, "sample depth", "passes/plainDepth.frag", S::Image)
           .reads({R::EngineDepth})
           .writes({R::SampleDepth})
-          .options({{"DEPTH_SOURCE", {2, 3}}})
+          .options({{"DEPTH_SOURCE", {2, 3, 4}}})
           .sameForAllLights(),
       Row(Pass::Edges, "edges", "passes/edges.frag", S::Image)
           .reads({R::SceneDepth})
@@ -269,11 +280,21 @@ std::vector<PassRow> makeRows() {
           .writes({R::EpipolarInscatter}),
       Row(Pass::Unwarp, "unwarp", "passes/unwarp.frag", S::Image)
           .reads({R::SceneDepth, R::SliceTable, R::EpipolarInscatter, R::MeanLight})
-          .readsIfThere({R::SceneDepthSamples, R::SceneDepthSampleLayers}) // one of the two
           .into(Into::Destination)
           .joins(kSumOfLights)
-          .options({{"SPREAD", {0, 1}}, {"SAMPLES", {0, 1}}})
+          .options({{"SPREAD", {0, 1}}})
           .when(isUnwarped),
+      Row(Pass::UnwarpEdges, "unwarp", "passes/unwarp.frag", S::Image)
+          .reads({R::SceneDepth, R::SliceTable, R::EpipolarInscatter, R::MeanLight})
+          .readsIfThere({R::FirstSamples, R::SecondSamples, R::ThirdSamples, R::FourthSamples}) // as many as there are
+          .writes({R::EdgeInscatter})
+          .options({{"SPREAD", {0, 1}}, {"SAMPLES", {1}}})
+          .when(isNotComposite),
+      Row(Pass::EdgeLight, "edges", "passes/edgeLight.frag", S::Image)
+          .reads({R::EdgeInscatter})
+          .into(Into::Destination)
+          .joins(kSumOfLights)
+          .sameForAllLights(),
       Row(Pass::Unserved, "unserved", "passes/red.frag", S::Image).writes({R::Unserved}).sameForAllLights(),
       Row(Pass::UnservedTiles, "unserved tiles", "passes/unservedTiles.frag")
           .reads({R::Unserved})

@@ -20,6 +20,8 @@ enum class Pass {
   CompositeOfCopy,
   CopyToOutput,
   MapCopy, // of a light, where passes do not read its maps as they are
+  EdgeSamples,
+  MoreEdgeSamples,
   SampleDepth,
   Edges,
   // A light's rows and slices (passes/Epipolar.cpp has the picture).
@@ -45,6 +47,8 @@ enum class Pass {
   MarchExtra,
   Interpolate,
   Unwarp,
+  UnwarpEdges,
+  EdgeLight,
   Unserved,
   UnservedTiles,
   FixupAlongRow,

@@ -76,8 +76,9 @@ FramePlanner::FramePlanner(const PlanInputs& inputs, Allocator& allocator, Plann
                             inputs.textures.transmittance.format};
   passes_.variant.dualSource = inputs.tuning.compositing == Compositing::DualSource;
   passes_.extent.sampledDepth = frame_.depth.multisampled;
-  passes_.depthLayer = frame_.depth.layer;
-  passes_.paths.depthSamples = inputs.textures.depthSamples;
+  passes_.depthSourceIndex = (frame_.depth.layer < 0 ? 0 : 1) + (frame_.depth.multisampled ? 2 : 0);
+  if (frame_.depth.multisampled && optics::isWhole(frame_)) passes_.depthSourceIndex = 4;
+  passes_.paths.depthSamples = passes_.extent.depthSamples = inputs.textures.depthSamples;
   passes_.paces = inputs.paces;
   out.plan.bandMilliseconds = inputs.tuning.bandMilliseconds;
 }
@@ -159,6 +160,25 @@ void FramePlanner::planDepth() {
   source.options = passes_.depthSource();
   passes_.draw(Pass::PlainDepth, source);
   board[Resource::SceneDepth] = board[Resource::PlainDepth];
+  if (depth.multisampled) planEdges();
+}
+
+// The pixels whose samples show several surfaces, and, for unwarp, these samples' depths.
+void FramePlanner::planEdges() {
+  DrawOptions marking{{}, kMarkEdges};
+  marking.adds = true;
+  passes_.clearStencil(Stencil::kAll);
+  passes_.draw(Pass::Edges, marking);
+  if (frame_.settings.technique != Technique::Epipolar) return;
+  const int given = passes_.frameBlock;
+  auto block = out_.plan.block<blocks::FrameBlock>(given);
+  for (const auto& [pass, first] : {std::pair{Pass::EdgeSamples, 0}, std::pair{Pass::MoreEdgeSamples, 8}}) {
+    if (first >= passes_.extent.depthSamples) break;
+    block.depthSample = first;
+    passes_.frameBlock = out_.plan.add(block);
+    passes_.draw(pass, {passes_.depthSource(), onEdges({})});
+  }
+  passes_.frameBlock = given;
 }
 
 void FramePlanner::begin(const Destination& destination) {

@@ -68,6 +68,7 @@ private:
   Destination keptDestination() const;
   void begin(const Destination& destination);
   void planDepth();
+  void planEdges();
   std::vector<DrawnLight> lightsToDraw(const Frame& frame, const Destination& destination);
   void planLights(const Frame& frame, const Destination& destination, const std::vector<DrawnLight>& lights);
   void planPicture();

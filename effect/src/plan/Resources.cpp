@@ -22,6 +22,8 @@ constexpr int kPartTexels = 256, kChunk = 64;
 
 bool always(E) { return true; }
 bool sampledDepth(E e) { return e.sampledDepth; }
+bool fiveSamples(E e) { return e.depthSamples > 4; }
+bool nineSamples(E e) { return e.depthSamples > 8; }
 bool wideColour(E e) { return e.wideColour; }
 bool floatTint(E e) { return e.floatTint; }
 bool coloured(E e) { return e.coloured; }
@@ -103,6 +105,12 @@ constexpr ResourceRow kRows[] = {
      "the scene depth out of a larger, smaller, layered, multisampled or encoded one"},
     {"sample depth", kR32, kR32, always, always, image, image, Lifetime::Frame,
      "the same: of one sample, where a pixel's differ"},
+    {"first samples", kRgba32, kRgba32, always, always, image, image, Lifetime::Frame, "the same: of four of them"},
+    {"second samples", kRgba32, kRgba32, always, fiveSamples, image, image, Lifetime::Frame, "the same: of more"},
+    {"third samples", kRgba32, kRgba32, always, nineSamples, image, image, Lifetime::Frame, "the same: of more"},
+    {"fourth samples", kRgba32, kRgba32, always, nineSamples, image, image, Lifetime::Frame, "the same: of more"},
+    {"edge inscatter", kRgba32, kRgba32, always, always, image, image, Lifetime::Frame,
+     "the same: what unwarp makes of those"},
     {"shadow copy", kR32, kR32, always, always, mapCopy, mapCopy, Lifetime::Light,
      "shadow maps that are cubes, hold other than window depth, or are seldom so: a layer for each view"},
     {"glass colour copy", kRgba32, kRgba8, floatTint, glass, mapCopy, mapCopy, Lifetime::Light, "the same of glass"},

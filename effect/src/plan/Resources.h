@@ -25,6 +25,11 @@ enum class Resource {
   Empty,
   PlainDepth,  // as SceneDepth
   SampleDepth, // likewise, for a while
+  FirstSamples,
+  SecondSamples,
+  ThirdSamples,
+  FourthSamples,
+  EdgeInscatter,
   ShadowCopy,
   GlassColourCopy,
   GlassDepthCopy,
@@ -101,6 +106,7 @@ struct Extent {
   int curveCells = 0;                ///< texels per side of the map of Light::curves
   int terms = 0, lowRankSets = 0;    ///< Technique::LowRank
   int tintLevel = 0;                 ///< of the sums of tints: 0 is the finest
+  int depthSamples = 0;              ///< of a pixel in the scene depth
   bool sampledDepth = false;         ///< the scene depth has several samples a pixel
   bool wideColour = true;            ///< the engine's colour is one of 32-bit floats
   std::array<gl::Enum, 3> engines{}; ///< formats of the engine's colour and outputs

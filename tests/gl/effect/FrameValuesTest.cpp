@@ -240,13 +240,6 @@ const std::vector<Breakage> kBreakages = {
        f.settings.debugView = DebugView::MarchSamples;
      },
      {"settings.debugView is MarchSamples", "technique Epipolar"}},
-    {"slices of a multisampled depth",
-     [](Frame& f) {
-       f.settings.technique = Technique::Epipolar;
-       f.depth.multisampled = true;
-       f.settings.debugView = DebugView::NodeVisits;
-     },
-     {"settings.debugView is NodeVisits", "not multisampled"}},
     {"view without colour",
      [](Frame& f) {
        f.colour = 0;

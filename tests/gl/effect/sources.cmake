@@ -43,6 +43,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/MapRefusalTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MemoryTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MistakesTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/MultisampledTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/NonFiniteTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EngineErrorTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/JitterTest.cpp
