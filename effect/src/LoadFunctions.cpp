@@ -75,10 +75,14 @@ private:
     const auto take = [&](auto& function, const char* extension, const char* name) {
       function = has(extension) ? reinterpret_cast<std::decay_t<decltype(function)>>(loader(name)) : nullptr;
     };
-    gl_.cubeArrays = gl_.indexedBlending = gl_.stencilTexturing = gl_.debugOutput = gl_.feedbackQuery = true;
+    gl_.cubeArrays = gl_.indexedBlending = gl_.stencilTexturing = gl_.debugOutput = gl_.feedbackQuery =
+        gl_.viewportArrays = true;
     gl_.normalised16 = has("GL_EXT_texture_norm16");
     gl_.dualSource = has("GL_EXT_blend_func_extended");
     take(gl_.ClipControl, "GL_EXT_clip_control", "glClipControlEXT");
+    take(gl_.ViewportIndexedf, "GL_OES_viewport_array", "glViewportIndexedfOES");
+    take(gl_.ScissorIndexed, "GL_OES_viewport_array", "glScissorIndexedOES");
+    take(gl_.GetFloati_v, "GL_OES_viewport_array", "glGetFloati_vOES");
     take(gl_.PolygonMode, "GL_NV_polygon_mode", "glPolygonModeNV");
     take(gl_.QueryCounter, "GL_EXT_disjoint_timer_query", "glQueryCounterEXT");
     take(gl_.GetQueryObjectui64v, "GL_EXT_disjoint_timer_query", "glGetQueryObjectui64vEXT");

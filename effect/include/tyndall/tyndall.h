@@ -58,7 +58,7 @@ Mat4 mat4(const Matrix& matrix) {
 enum class StatusCode {
   Ok,
   NoContext,     ///< no GL context is current, or another than the one the effect was created in
-  ContextTooOld, ///< the context lacks OpenGL 3.3 core or a function of it
+  ContextTooOld, ///< the context lacks OpenGL 3.3 and OpenGL ES 3.2, or a function or an extension that is needed
   ShaderError,   ///< a shader did not compile or link: a defect of Tyndall or of the driver
   OutOfMemory,   ///< GL could not allocate a texture or buffer
   InvalidConfig, ///< a field of Config breaks its rule
@@ -433,6 +433,8 @@ struct PassStatistics {
   double longestBand = 0;  ///< of them, in milliseconds; as those, and by PassTiming::Finish with a glFinish for each
 };
 
+/// OpenGL ES has no query that counts samples: fixupPixels and redrawnShare are 0 there, and marchedSamples leaves out
+/// what only a query tells.
 struct Statistics {
   std::vector<PassStatistics> passes;
   /// GL memory the effect holds in textures and buffers: at most what the last 8 frames needed, of each of the last 4
@@ -509,7 +511,8 @@ struct CreateResult;
 /// compiled or a glRenderMode other than GL_RENDER leave all as it was.
 class Effect {
 public:
-  /// Builds an effect in the current context: OpenGL 3.3 core or later. Shaders compile when first needed.
+  /// Builds an effect in the current context: OpenGL 3.3 or later, core or compatibility profile, or OpenGL ES 3.2 with
+  /// GL_EXT_float_blend. Shaders compile when first needed.
   static CreateResult create(const Config& config);
   ~Effect();
   Effect(const Effect&) = delete;

@@ -1,5 +1,4 @@
 // Every rule about a frame's textures: a valid frame with one texture broken is refused with field, name and rule.
-#include "FakeContext.h"
 #include "RefusalRig.h"
 #include "gl/avsm/AvsmRig.h"
 #include "support/Catch.h"
@@ -8,8 +7,6 @@
 
 using namespace tyndall;
 using host::gl;
-using tests::address;
-using tests::FakeContext;
 
 namespace {
 
@@ -218,35 +215,6 @@ TEST_CASE("a texture whose swizzle changes what is read of it is refused, a tint
         }
       }
   }
-}
-
-TEST_CASE("a depth texture of a compatibility context that gives depth as alpha is refused") {
-  static GLint mode = 0;
-  const FakeContext fake({}, {{"glGetIntegerv", address(+[](GLenum name, GLint* value) {
-                                 if (name == GL_CONTEXT_PROFILE_MASK)
-                                   *value = GL_CONTEXT_COMPATIBILITY_PROFILE_BIT;
-                                 else
-                                   gl().GetIntegerv(name, value);
-                               })},
-                              {"glGetTexParameteriv", address(+[](GLenum target, GLenum name, GLint* value) {
-                                 constexpr GLenum kDepthTextureMode = 0x884B; // of that profile alone
-                                 if (name == kDepthTextureMode)
-                                   *value = mode;
-                                 else
-                                   gl().GetTexParameteriv(target, name, value);
-                               })}});
-  const CreateResult created = fake.create();
-  REQUIRE(created.effect);
-  tests::RefusalRig rig;
-  for (const GLint accepted : {0x1909 /* GL_LUMINANCE */, 0x8049 /* GL_INTENSITY */, GL_RED}) {
-    mode = accepted;
-    CHECK(created.effect->render(rig.frame));
-  }
-  mode = GL_ALPHA;
-  const Status status = created.effect->render(rig.frame);
-  CHECK(status.code == StatusCode::InvalidFrame);
-  CHECK(status.message.find("Frame::depth.texture") == 0);
-  CHECK(status.message.find("GL_DEPTH_TEXTURE_MODE must not be GL_ALPHA") != std::string::npos);
 }
 
 TEST_CASE("a depth texture that is set to give its stencil is refused") {

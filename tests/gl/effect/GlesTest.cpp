@@ -321,8 +321,9 @@ TEST_CASE("OpenGL ES: what a context lacks has another way, or is said by create
   const tests::FrameCase& item = tests::frameCase("epipolar, bilinear and glass");
   const std::vector<tests::TargetContents> wanted = drawCase(item, tests::testContext().loader());
   double worst = 0;
-  for (const char* extension : {"GL_EXT_blend_func_extended", "GL_EXT_texture_norm16", "GL_EXT_disjoint_timer_query",
-                                "GL_EXT_clip_control", "GL_EXT_clip_cull_distance", "GL_KHR_parallel_shader_compile"}) {
+  for (const char* extension :
+       {"GL_EXT_blend_func_extended", "GL_EXT_texture_norm16", "GL_EXT_disjoint_timer_query", "GL_EXT_clip_control",
+        "GL_EXT_clip_cull_distance", "GL_OES_viewport_array", "GL_KHR_parallel_shader_compile"}) {
     CAPTURE(extension);
     const Without without({extension});
     const auto created = without.fake.create();

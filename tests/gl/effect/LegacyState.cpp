@@ -175,9 +175,8 @@ void addPixels(Rows& rows) {
                   Where::Everywhere});
   rows.push_back({"depth that gives alpha",
                   [](Engine& e) {
-                    constexpr GLenum kDepthTextureMode = 0x884B;
                     gl().BindTexture(GL_TEXTURE_2D, e.frame.depth.texture);
-                    gl().TexParameteri(GL_TEXTURE_2D, kDepthTextureMode, GL_ALPHA);
+                    gl().TexParameteri(GL_TEXTURE_2D, DEPTH_TEXTURE_MODE, GL_ALPHA);
                   },
                   Where::Once, 33, "GL_DEPTH_TEXTURE_MODE must not be GL_ALPHA"});
 }

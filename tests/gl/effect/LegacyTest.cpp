@@ -73,6 +73,25 @@ TEST_CASE("calls between glBegin and glEnd are refused", "[compatibility][once]"
   CHECK(tests::testContext().takeErrors().empty());
 }
 
+TEST_CASE("depth that is given as luminance or intensity is read, as alpha refused", "[compatibility][once]") {
+  LegacyRig rig;
+  const reference::ImageAnswer expected = rig.scene.render(*rig.effect);
+  const auto give = [&](GLint mode) {
+    gl().BindTexture(GL_TEXTURE_2D, rig.scene.frame.depth.texture);
+    gl().TexParameteri(GL_TEXTURE_2D, tests::legacy::DEPTH_TEXTURE_MODE, mode);
+  };
+  for (const GLint mode : {0x1909 /* GL_LUMINANCE */, 0x8049 /* GL_INTENSITY */, GL_RED}) {
+    CAPTURE(mode);
+    give(mode);
+    CHECK(rig.scene.render(*rig.effect).inscatter == expected.inscatter);
+  }
+  give(GL_ALPHA);
+  const Status status = rig.effect->render(rig.scene.frame);
+  CHECK(status.code == StatusCode::InvalidFrame);
+  CHECK(status.message.find("Frame::depth.texture") == 0);
+  CHECK(status.message.find("GL_DEPTH_TEXTURE_MODE must not be GL_ALPHA") != std::string::npos);
+}
+
 TEST_CASE("the compatibility profile draws the picture of the core profile") {
   reference::ImageAnswer answers[2];
   for (const auto profile : {host::ContextProfile::Core, host::ContextProfile::Compatibility}) {
