@@ -111,7 +111,10 @@ void Effect::State::draw(const PlannedFrame& planned, gl::StateGuard& guard) {
   recorder.countMarched(planned.plan.marched);
   drawPlan(planned.plan, gl, {vertexArray.name(), nearestSampler.name(), planned.empty, blocks}, recorder, paces);
   visits = planned.visits;
-  if (planned.checks != 0) inputChecks.ask(planned.checks, planned.checkedLights, stateMode);
+  if (planned.checks != 0)
+    inputChecks.ask(planned.checks, planned.checkedLights, stateMode);
+  else
+    inputChecks.forget();
 }
 
 // All that is planned sees the camera without its jitter, as the eye's last frame saw it if that has not moved.

@@ -156,6 +156,11 @@ void InputChecks::ask(gl::Uint texture, CheckedLights lights, StateMode state) {
   batch->number = ++asked_;
 }
 
+void InputChecks::forget() {
+  known_ = asked_;
+  warnings_.clear();
+}
+
 void InputChecks::receive() {
   for (Batch& batch : batches_) {
     if (!batch.sync) continue;

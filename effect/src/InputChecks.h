@@ -52,6 +52,9 @@ public:
   /// texture unit 0, and activates it.
   void ask(gl::Uint texture, CheckedLights lights, StateMode state);
 
+  /// A frame has nothing to be checked: what is under way is of others.
+  void forget();
+
   /// Looks at what has come. Binds to the uniform target.
   void receive();
 

@@ -235,7 +235,8 @@ struct Medium {
   double farDistance = kInfinity;        ///< where rays to the sky end, world units, > 0
 };
 
-/// All but Exact need shadow views whose centre is the light itself: its direction or its position.
+/// All but Exact need shadow views whose centre is the light itself, its direction or its position, and refuse others,
+/// of which Exact warns.
 enum class Technique {
   Exact,    ///< every shadow texel along every pixel's ray, closed form or quadrature per lit span: the reference
   Tree,     ///< every pixel along its nearest slice's row, skipping by a min/max tree (Chen 2011)
@@ -481,10 +482,11 @@ struct Config {
   ProgramStore programs = {};
   StateMode state = StateMode::Restore;
   Tuning tuning = {};
-  /// Compares scene depth and shadow maps by a small extra pass a frame, and warns (Statistics::warnings) where they
-  /// cannot show one scene: what a wrong matrix, projection or encoding comes to. For while one integrates.
+  /// Compares scene depth and shadow maps by a small extra pass a light and frame, and warns (Statistics::warnings), a
+  /// few frames later, where they cannot show one scene: what a wrong matrix, projection or encoding comes to. For
+  /// while one integrates.
   bool checkInputs = false;
-  bool warningsAreErrors = false; ///< InvalidFrame, and nothing is drawn, for what would be a warning
+  bool warningsAreErrors = false; ///< InvalidFrame, and nothing is drawn, for what would be a warning: the first
 };
 
 /// How far Effect::prepare() is.

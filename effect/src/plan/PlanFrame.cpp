@@ -286,11 +286,13 @@ void FramePlanner::planMean(gl::Uint image) {
 // A light with its map, which is not to be drawn.
 LightPlanner FramePlanner::mapOf(std::size_t light) {
   const FrameTextures::Shadow& map = in_.textures.shadows[light];
-  passes_.frameBlock = out_.plan.add(optics::frameBlock(frame_, {in_.textures.depthSamples, 0, 0, 0}));
+  PassPlanner passes = passes_;
+  passes.frameBlock =
+      out_.plan.add(optics::frameBlock(frame_, {in_.textures.depthSamples, 0, 0, 0, in_.textures.depthRounding}));
   const DrawnLight drawn{light,           nameOf(frame_, light),
                          frame_.settings, optics::lightBlock(frame_, frame_.lights[light], map.width, map.height),
                          map.copies,      variantOf(frame_, frame_.lights[light], passes_.variant.dualSource, false)};
-  LightPlanner planner{passes_, frame_, drawn, in_.textures};
+  LightPlanner planner{passes, frame_, drawn, in_.textures};
   planner.copyMaps();
   return planner;
 }

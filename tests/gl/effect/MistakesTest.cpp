@@ -1,4 +1,5 @@
 // Mistakes that integrators make: each is named by an error or a warning. And what is right is warned of nowhere.
+#include "GlState.h"
 #include "ShaftRig.h"
 
 #include "gl/ReadBack.h"
@@ -536,6 +537,32 @@ TEST_CASE("inputs that are not to be checked cost no program, no pass and no mem
   CHECK(b.compiledPrograms == a.compiledPrograms + 1);
   CHECK(b.bytes > a.bytes);
   CHECK(rig.scene.render(*plain).inscatter == rig.scene.render(*checking).inscatter);
+}
+
+TEST_CASE("checks of inputs leave a poisoned GL state alone, and nothing of what is gone") {
+  tests::ShaftRig rig = rightRig(kSun);
+  Frame wrong = frameOf(rig);
+  wrong.camera.viewFromWorld = tests::lookAt({0, 2, 0}, {1, 2, -1});
+  const auto effect = checkingEffect();
+  for (int i = 0; i < 4; ++i) {
+    const tests::Poison poison;
+    const tests::GlState before = tests::captureGlState();
+    const Status status = effect->render(wrong);
+    const tests::GlState after = tests::captureGlState();
+    tests::Poison::lift();
+    gl().Finish();
+    INFO(status.message);
+    CHECK(status);
+    for (const auto& [name, values] : before) {
+      INFO(name);
+      CHECK(values == after.at(name));
+    }
+  }
+  CHECK_FALSE(effect->statistics().warnings.empty());
+  wrong.lights.clear();
+  CHECK(effect->render(wrong));
+  CHECK(effect->render(wrong));
+  CHECK(effect->statistics().warnings.empty());
 }
 
 TEST_CASE("the view of inputs tells lit, shadowed and impossible surfaces apart") {

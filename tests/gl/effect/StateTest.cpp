@@ -44,6 +44,7 @@ struct FullFrame {
     frame.camera.clipDepth = ClipDepth::ZeroToOne;
     frame.medium.constituents = {{{0.1F, 0.2F, 0.3F}, Phase::Rayleigh, 0}};
     frame.lights.resize(2);
+    frame.lights[0].direction = {0, 0, 1};
     frame.lights[0].shadow.views = {{kIdentity, 1}};
     frame.lights[1].kind = LightKind::Point;
     frame.lights[1].position = {0, 1, -2};
