@@ -59,7 +59,8 @@ bool isSeldom(std::string_view fragment, const Values& values) {
 // One view of an array may be the first of several: always where that costs little or is seldom asked for. A point
 // light's only view, which is seldom alone, is a spot's with an open cone.
 bool takesSeveral(std::string_view fragment, const Values& values) {
-  return values["LIGHT_KIND"] == 1 || isSeldom(fragment, values) || isOneOf(fragment, {"tintGroups"});
+  return values["LIGHT_KIND"] == 1 || isSeldom(fragment, values) ||
+         isOneOf(fragment, {"exact", "rowDepths", "tintGroups"});
 }
 
 // Several views of one texture where that is seldom: the light's maps are copied into an array (plan/MapCopies.cpp).
