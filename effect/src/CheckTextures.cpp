@@ -39,7 +39,9 @@ const char* targetName(Enum target) {
 }
 
 bool isMultisample(Enum target) { return target == TEXTURE_2D_MULTISAMPLE || target == TEXTURE_2D_MULTISAMPLE_ARRAY; }
-bool isArray(Enum target) { return target == TEXTURE_2D_ARRAY || target == TEXTURE_2D_MULTISAMPLE_ARRAY; }
+bool isArray(Enum target) {
+  return target == TEXTURE_2D_ARRAY || target == TEXTURE_CUBE_MAP_ARRAY || target == TEXTURE_2D_MULTISAMPLE_ARRAY;
+}
 
 std::string textOf(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
 

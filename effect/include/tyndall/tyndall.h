@@ -110,7 +110,8 @@ struct Camera {
   Mat4 clipFromView = kIdentity;  ///< invertible (an infinite far plane is)
   ClipDepth clipDepth = ClipDepth::NegativeOneToOne;
   /// By how many pixels clipFromView moves the image, for temporal antialiasing: to the right and up; |x|, |y| <= 16.
-  /// What is sampled along slices is sampled as without it, so that it neither flickers nor ends a reuse.
+  /// What is sampled along slices is sampled as without it, so that it neither flickers nor ends a reuse; one of up to
+  /// half a pixel after one of more does.
   std::array<double, 2> jitter = {0, 0};
 };
 
@@ -255,8 +256,7 @@ enum class Profile { Performance, Balanced, High, Reference };
 
 /// Debug views: pictures of what the effect did. All but Composite replace the RGB of Frame::colour, which must be
 /// given; outputs are written as ever. Colours are linear, mostly in [0, 1]. Views of slices and samples show the first
-/// light that is drawn, and black where none is. They need the technique that is said, and never a
-/// multisampled scene depth, which only Exact renders.
+/// light that is drawn, and black where none is. They need the technique that is said.
 enum class DebugView {
   Composite, ///< the normal picture
   Slices,  ///< Tree, Epipolar, LowRank: each pixel's nearest slice: a hue for 16 of them, every second one darker; the
@@ -326,9 +326,14 @@ enum class Changes {
 
 /// Temporal reuse (Lin et al. 2013): light of the last frame is kept where nothing has changed. A frame that reuses is
 /// what it would be in full, to rounding. Camera, medium, settings, lights and sizes are compared by the effect: what a
-/// change of them touches is drawn anew. Only Technique::Epipolar redraws parts of a picture; by the other techniques,
-/// with a finite Settings::spreadThreshold or a multisampled depth any change redraws all of it, as any debug view but
-/// Redrawn does. A light whose shadow views are too large to be marched at once is redrawn whole.
+/// change of them touches is drawn anew. Only Technique::Epipolar redraws parts of a picture; by the other techniques
+/// or with a finite Settings::spreadThreshold any change redraws all of it, as any debug view but Redrawn does; with a
+/// multisampled depth any redraws all pixels, but not all slices. A light whose shadow views are too large to be
+/// marched at once is redrawn whole. Where only Camera::jitter changes, all pixels are drawn, but slices are kept: by
+/// Changes::Detect as long as a sample's end lies within the depths of the nine pixels around it, by Changes::Objects
+/// where no object is. Until the eye is drawn in full again, such a frame differs from the frame in full as far as
+/// another jitter's depth does: by less than 2 % of the mean in all that was tried, and from Exact by no more than a
+/// seventh farther.
 struct Reuse {
   Changes changes = Changes::Unknown;
   /// Which of the engine's eyes this is: each has a picture of its own, the last 4 that were drawn are kept.
