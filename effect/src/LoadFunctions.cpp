@@ -47,6 +47,11 @@ public:
   }
 
 private:
+  // It tells a texture's target in the core profile only.
+  bool isMesa() const {
+    return std::string(reinterpret_cast<const char*>(gl_.GetString(gl::VERSION))).find("Mesa") != std::string::npos;
+  }
+
   // What is of a later version than the context's, unless an extension brings it.
   void settleDesktop() {
     gl::Int profile = 0;
@@ -63,8 +68,7 @@ private:
     if (!has(43, "GL_KHR_debug")) gl_.ObjectLabel = nullptr;
     if (!has(45, "GL_KHR_robustness"))
       gl_.GetGraphicsResetStatus = has(45, "GL_ARB_robustness") ? gl_.GetGraphicsResetStatusARB : nullptr;
-    // Mesa tells a texture's target in the core profile only.
-    if (!has(45, "GL_ARB_direct_state_access") || gl_.compatibility) gl_.GetTextureParameteriv = nullptr;
+    if (!has(45, "GL_ARB_direct_state_access") || (gl_.compatibility && isMesa())) gl_.GetTextureParameteriv = nullptr;
     if (!has(44, "GL_ARB_multi_bind")) gl_.BindTextures = nullptr;
     if (!gl_.BindTextures) gl_.BindSamplers = nullptr;
     if (!has("GL_EXT_stencil_two_side")) gl_.ActiveStencilFaceEXT = nullptr;

@@ -1,6 +1,7 @@
 #!/bin/sh
-# compile.sh GLSLANG TOOL DIR: has TOOL (tyndall-shaders) write every shader into DIR, and the Khronos reference compiler
-# read all of them, the effect's as ESSL, too, as they are and with their #version raised: words that a later GLSL reserves are refused there.
+# compile.sh GLSLANG TOOL DIR: has TOOL (tyndall-shaders) write every shader into DIR, the effect's as ESSL, too, and the
+# Khronos reference compiler read all of them, as they are and those of OpenGL with their #version raised: words that a
+# later GLSL reserves are refused there.
 set -eu
 glslang=$1 tool=$2 dir=$3
 [ -x "$glslang" ] || { echo "glslangValidator is missing: run tests/run.sh --all" >&2; exit 1; }
