@@ -31,6 +31,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/ReuseMeshTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ReuseTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MemoryTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/Mistakes.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MistakesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/NonFiniteTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EngineErrorTest.cpp
