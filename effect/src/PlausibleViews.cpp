@@ -29,7 +29,10 @@ struct Lamp {
 
   bool isSun() const { return light.kind == LightKind::Directional; }
   glm::dvec3 position() const { return toGlm(light.position); }
-  glm::dvec3 direction() const { return glm::normalize(toGlm(light.direction)); }
+  glm::dvec3 direction() const { // of any length, also one whose square is no number
+    const glm::dvec3 d = toGlm(light.direction);
+    return glm::normalize(d / std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}));
+  }
 
   // As the effect reads it off.
   bool isReversed(const Projection& view) const {
@@ -88,7 +91,14 @@ std::string centreText(const Lamp& lamp, const Projection& view) {
   return "a view along " + textOf(glm::dot(along, lamp.direction()) < 0 ? -along : along);
 }
 
-// Rows and slices run through the light: only exact does without that (Technique).
+// Rows and slices run through the light and what its views show: only exact does without that (Technique).
+void refuse(const Lamp& lamp, const std::string& line, Findings& findings) {
+  if (lamp.frame.settings.technique == Technique::Exact)
+    findings.warnings.push_back(line);
+  else
+    findings.wrong({StatusCode::InvalidFrame, line});
+}
+
 void checkCentre(const Lamp& lamp, std::size_t i, Findings& findings) {
   if (offOf(lamp, lamp.views[i]) <= kMostOff) return;
   const std::string light = "lights[" + std::to_string(lamp.index) + "].";
@@ -96,10 +106,7 @@ void checkCentre(const Lamp& lamp, std::size_t i, Findings& findings) {
       lamp.isSun() ? "must be orthographic along " + light + "direction, which is " + textOf(lamp.direction())
                    : "must be a perspective view from " + light + "position, which is " + textOf(lamp.light.position);
   const std::string line = lineOf(viewField(lamp.index, i), centreText(lamp, lamp.views[i]), rule + remedyOf(lamp, i));
-  if (lamp.frame.settings.technique == Technique::Exact)
-    findings.warnings.push_back(line);
-  else
-    findings.wrong({StatusCode::InvalidFrame, line});
+  refuse(lamp, line, findings);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -148,8 +155,10 @@ void checkCone(const Lamp& lamp, Findings& findings) {
   const std::string field = "lights[" + std::to_string(lamp.index) + "].";
   constexpr double kRim = 1.1;
   if (nearest > 1)
-    findings.wrong(invalid(field + "direction", textOf(lamp.light.direction),
-                           "all of the cone is outside of " + viewField(lamp.index, 0)));
+    refuse(lamp,
+           lineOf(field + "direction", textOf(lamp.light.direction),
+                  "all of the cone is outside of " + viewField(lamp.index, 0)),
+           findings);
   else if (farthest > kRim)
     findings.warnings.push_back(
         lineOf(field + "outerConeAngle", text(cone),

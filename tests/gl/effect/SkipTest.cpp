@@ -144,8 +144,10 @@ TEST_CASE("with every technique a light outside the view costs nothing and chang
   Light& lamp = rig.scene.frame.lights[1];
   lamp.position = {0, 2, 7}; // behind the eye, shining away from it
   lamp.direction = {0.2, 0.1, 1};
+  lamp.shadow.views = tests::shadowViews(lamp);
   checkSkipped(rig, kOutOfView);
   lamp.direction = {0, 0, -1}; // at it, but not so far
+  lamp.shadow.views = tests::shadowViews(lamp);
   lamp.range = 6.9;
   checkSkipped(rig, kOutOfView);
   lamp.kind = LightKind::Point;

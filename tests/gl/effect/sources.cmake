@@ -42,6 +42,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/MapLayoutTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MapRefusalTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MemoryTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/Mistakes.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MistakesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MultisampledTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/NonFiniteTest.cpp
