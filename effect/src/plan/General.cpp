@@ -110,6 +110,7 @@ gl::Definitions general(const std::string& fragment, gl::Definitions definitions
     values.set("GLASS", 0);
     values.set("MONOCHROME", 0);
   }
+  if (values["SAMPLES"] != 0) values.set("SPREAD", 0); // edges of surfaces are not looked at for those of shadows
   if (values["MEAN_OF"] == 2)
     for (const char* name : {"LIGHT_KIND", "GLASS", "MONOCHROME"})
       values.set(name, 0);

@@ -155,7 +155,7 @@ std::vector<PassRow> makeRows() {
           .writes({R::ThirdSamples, R::FourthSamples})
           .options({{"DEPTH_SOURCE", {2, 3, 4}}, kEdges})
           .sameForAllLights(),
-      Row(Pass::SampleDepth, "sample depth", "passes/plainDepth.frag", S::Image)
+      Row(Pass::SampleDepth, "sample depth", "passes/plainDepth.frag")
           .reads({R::EngineDepth})
           .writes({R::SampleDepth})
           .options({{"DEPTH_SOURCE", {2, 3, 4}}})

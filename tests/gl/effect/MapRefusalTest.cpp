@@ -24,7 +24,7 @@ ShadowMap& lamp(Frame& f) { return f.lights[1].shadow; }
 ShadowMap& spot(Frame& f) { return f.lights[2].shadow; }
 
 Breakage rectangle(const char* name, const Rectangle& r, std::vector<std::string> words) {
-  words.insert(words.begin(), "lights[2].shadow.views[0].rectangle is (");
+  words.insert(words.begin(), "lights[2].shadow.views[0].rectangle is ");
   return {name, [r](Frame& f) { spot(f).views[0].rectangle = r; }, std::move(words)};
 }
 
@@ -46,8 +46,8 @@ Breakage cube(const char* name, const std::function<void(ShadowMap&)>& apply, st
 
 // Shadow maps are 4 x 4.
 const std::vector<Breakage> kBreakages = {
-    rectangle("wide", {0, 0, 5, 4}, {"0, 0, 5 x 4", "4 x 4 texels"}),
-    rectangle("high", {0, 1, 4, 4}, {"0, 1, 4 x 4", "4 x 4 texels"}),
+    rectangle("wide", {0, 0, 5, 4}, {"5 x 4 at (0, 0)", "4 x 4 texels"}),
+    rectangle("high", {0, 1, 4, 4}, {"4 x 4 at (0, 1)", "4 x 4 texels"}),
     rectangle("beside the map", {4, 0, 1, 1}, {"4 x 4 texels"}),
     rectangle("far beyond it", {kMost, kMost, kMost, kMost}, {"4 x 4 texels"}),
     rectangle("no width", {0, 0, 0, 4}, {"hold a texel"}),
@@ -62,7 +62,7 @@ const std::vector<Breakage> kBreakages = {
        sun(f).views[1].rectangle = {2, 2, 2, 2};
        sun(f).views[1].layer = sun(f).views[0].layer;
      },
-     {"lights[0].shadow.views[1].rectangle is (2, 2, 2 x 2)", "overlaps that of views[0]"}},
+     {"lights[0].shadow.views[1].rectangle is 2 x 2 at (2, 2)", "overlaps that of views[0]"}},
     {"a rectangle of a layer that another view has whole",
      [](Frame& f) {
        sun(f).views[1].rectangle = {2, 2, 2, 2};

@@ -39,6 +39,7 @@ struct SampledRig {
 } // namespace
 
 TEST_CASE("samples that differ: every technique is as near to exact on the same samples as it is with one a pixel") {
+  tests::testContext();
   GLint most = 0;
   host::gl().GetIntegerv(GL_MAX_DEPTH_TEXTURE_SAMPLES, &most);
   for (const int count : {2, 4, 8})
