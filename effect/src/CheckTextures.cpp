@@ -1,4 +1,5 @@
 #include "CheckFrame.h"
+#include "FieldText.h"
 #include "gl/OwnErrors.h"
 #include "optics/Blocks.h"
 #include "optics/MapCopy.h"
@@ -239,9 +240,8 @@ Status checkLayered(const Functions& gl, const Layered& what, Enum one, Enum arr
 Status within(const std::string& field, const Rectangle& r, const std::string& texture, const Info& info) {
   const auto ends = [](int first, int length) { return std::int64_t{first} + length; };
   if (ends(r.x, r.width) <= info.width && ends(r.y, r.height) <= info.height) return {};
-  return {StatusCode::InvalidFrame, "Frame::" + field + " is " + textOf(r.width, r.height) + " at (" +
-                                        std::to_string(r.x) + ", " + std::to_string(r.y) + "): must lie within " +
-                                        texture + ", which is " + textOf(info.width, info.height)};
+  return {StatusCode::InvalidFrame, "Frame::" + field + " is " + textOf(r) + ": must lie within " + texture +
+                                        ", which is " + textOf(info.width, info.height)};
 }
 
 // What is drawn into: the viewport lies within the first, and the others are as large.
@@ -368,9 +368,7 @@ Status checkPlaces(const std::string& field, const ShadowMap& shadow, const Info
     if (shadow.array && view.layer >= map.layers)
       return outside(its + "layer", std::to_string(view.layer), std::to_string(map.layers) + " layers");
     if (r.width > map.width - r.x || r.height > map.height - r.y)
-      return outside(its + "rectangle",
-                     "(" + std::to_string(r.x) + ", " + std::to_string(r.y) + ", " + std::to_string(r.width) + " x " +
-                         std::to_string(r.height) + ")",
+      return outside(its + "rectangle", textOf(r),
                      std::to_string(map.width) + " x " + std::to_string(map.height) + " texels");
   }
   return {};
