@@ -65,15 +65,15 @@ std::string nameOf(DepthEncoding encoding) {
 Status checkDepthScale(const std::string& field, DepthEncoding encoding, const DepthScale& scale) {
   const DepthScale none;
   const bool isSet = scale.unit != none.unit || scale.offset != none.offset || scale.constant != none.constant ||
-                     scale.far != none.far;
+                     scale.farDistance != none.farDistance;
   switch (encoding) {
   case DepthEncoding::Window:
     return isSet ? invalid(field + "scale", "set", "encoding Window has none") : Status{};
   case DepthEncoding::Logarithmic:
     if (!(scale.constant > 0 && std::isfinite(scale.constant)))
       return invalid(field + "scale.constant", text(scale.constant), "must be finite and > 0");
-    if (!(scale.far > 0 && std::isfinite(scale.far)))
-      return invalid(field + "scale.far", text(scale.far), "must be finite and > 0");
+    if (!(scale.farDistance > 0 && std::isfinite(scale.farDistance)))
+      return invalid(field + "scale.farDistance", text(scale.farDistance), "must be finite and > 0");
     return {};
   default:
     if (scale.unit == 0 || !std::isfinite(scale.unit))
@@ -186,7 +186,8 @@ Status checkScale(const std::string& field, const ShadowMap& shadow) {
   if (!std::isfinite(scale.offset)) return invalid(field + "offset", text(scale.offset), "must be finite");
   if (scale.constant != 1)
     return invalid(field + "constant", text(scale.constant), "must be 1 where the encoding is not Logarithmic");
-  if (scale.far != 0) return invalid(field + "far", text(scale.far), "must be 0 where the encoding is not Logarithmic");
+  if (scale.farDistance != 0)
+    return invalid(field + "farDistance", text(scale.farDistance), "must be 0 where the encoding is not Logarithmic");
   return {};
 }
 

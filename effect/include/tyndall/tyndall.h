@@ -91,7 +91,8 @@ enum class DepthEncoding {
   Window,      ///< what the projection, and glDepthRange (0, 1), leave in a depth buffer
   Axial,       ///< DepthScale::offset + DepthScale::unit x value is the distance along the view's axis
   Radial,      ///< the same is the distance itself; perspective views only
-  Logarithmic, ///< value = log(1 + constant w) / log(1 + constant far), w the distance along the axis; perspective
+  Logarithmic, ///< value = log(1 + constant w) / log(1 + constant farDistance), w the distance along the axis;
+               ///< perspective
 };
 
 /// The measure of a DepthEncoding.
@@ -99,8 +100,8 @@ struct DepthScale {
   double unit = 1;   ///< Axial, Radial: world units of a value of 1, not 0: 1 for world units, the far plane's distance
                      ///< for a map from 0 to 1, whose value 1 is then sky wherever the far plane is
   double offset = 0; ///< Axial, Radial: world units of a value of 0
-  double constant = 1; ///< Logarithmic: 1/world unit, > 0
-  double far = 0;      ///< Logarithmic: distance at which the value is 1, world units, > 0
+  double constant = 1;    ///< Logarithmic: 1/world unit, > 0
+  double farDistance = 0; ///< Logarithmic: distance at which the value is 1, world units, > 0
 };
 
 /// The camera that rendered colour and depth. Perspective and orthographic projections, standard and reversed depth

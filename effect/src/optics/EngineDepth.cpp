@@ -18,7 +18,7 @@ glm::vec3 viewAxis(const Camera& camera, bool orthographic) {
 void setMeasure(blocks::FrameBlock& block, const SceneDepth& depth) {
   const DepthScale& scale = depth.scale;
   const bool logarithmic = depth.encoding == DepthEncoding::Logarithmic;
-  block.depthUnit = static_cast<float>(logarithmic ? std::log2(1 + scale.constant * scale.far) : scale.unit);
+  block.depthUnit = static_cast<float>(logarithmic ? std::log2(1 + scale.constant * scale.farDistance) : scale.unit);
   block.depthZero = static_cast<float>(logarithmic ? 1 / scale.constant : scale.offset);
 }
 

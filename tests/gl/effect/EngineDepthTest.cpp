@@ -166,12 +166,12 @@ struct Encoding {
   DepthScale scale;
   double valueOf(double axial, double radial) const {
     if (encoding == DepthEncoding::Logarithmic)
-      return std::log1p(scale.constant * axial) / std::log1p(scale.constant * scale.far);
+      return std::log1p(scale.constant * axial) / std::log1p(scale.constant * scale.farDistance);
     return ((encoding == DepthEncoding::Radial ? radial : axial) - scale.offset) / scale.unit;
   }
   double axialOf(double value, double radialPerAxial) const {
     if (encoding == DepthEncoding::Logarithmic)
-      return std::expm1(value * std::log1p(scale.constant * scale.far)) / scale.constant;
+      return std::expm1(value * std::log1p(scale.constant * scale.farDistance)) / scale.constant;
     return (scale.unit * value + scale.offset) / (encoding == DepthEncoding::Radial ? radialPerAxial : 1);
   }
 };
@@ -344,7 +344,7 @@ TEST_CASE("a pixel whose encoded depth is NaN, or at the eye, gets no light") {
     const host::GlTexture texture = depthTexture(GL_R32F, kWidth, kHeight, values);
     rig.frame.depth = {texture.name()};
     rig.frame.depth.encoding = encoding;
-    if (encoding == DepthEncoding::Logarithmic) rig.frame.depth.scale.far = 50;
+    if (encoding == DepthEncoding::Logarithmic) rig.frame.depth.scale.farDistance = 50;
     for (const Technique technique : kTechniques) {
       rig.frame.settings.technique = technique;
       const reference::ImageAnswer answer = rig.render();

@@ -140,7 +140,9 @@ const std::vector<Breakage> kBreakages = {
      [](Frame& f) { spot(f).scale.offset = 1; },
      {"lights[2].shadow.scale.offset is 1", "Window"}},
     {"a logarithm's constant", [](Frame& f) { spot(f).scale.constant = 2; }, {"lights[2].shadow.scale.constant is 2"}},
-    {"a logarithm's far plane", [](Frame& f) { spot(f).scale.far = 9; }, {"lights[2].shadow.scale.far is 9"}},
+    {"a logarithm's far plane",
+     [](Frame& f) { spot(f).scale.farDistance = 9; },
+     {"lights[2].shadow.scale.farDistance is 9"}},
 };
 
 host::GlTexture makeFaces(const std::vector<int>& sizes, const std::vector<GLenum>& formats) {
