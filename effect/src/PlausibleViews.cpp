@@ -137,32 +137,67 @@ double awayFrom(const Projection& view, const glm::dvec3& way) {
   return ahead ? std::max(std::abs(clip.x), std::abs(clip.y)) / std::abs(clip.w) : kInfinity;
 }
 
-// A spot's view holds its cone, whose rim is nearly dark.
-void checkCone(const Lamp& lamp, Findings& findings) {
-  const Projection& view = lamp.views.front();
-  const glm::dvec3 axis = lamp.direction();
-  const glm::dvec3 other = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 side = glm::normalize(glm::cross(axis, other)), up = glm::cross(axis, side);
-  const double cone = lamp.light.outerConeAngle;
-  double nearest = awayFrom(view, axis), farthest = nearest;
-  for (int k = 0; k < 16; ++k) {
-    const double turn = k * glm::pi<double>() / 8;
-    const double away =
-        awayFrom(view, std::cos(cone) * axis + std::sin(cone) * (std::cos(turn) * side + std::sin(turn) * up));
-    nearest = std::min(nearest, away);
-    farthest = std::max(farthest, away);
+// The smallest angle between a direction and those that a perspective view shows.
+double angleTo(const Projection& view, const glm::dvec3& axis) {
+  if (awayFrom(view, axis) <= 1) return 0;
+  std::array<glm::dvec3, 4> corners; // in turn
+  for (std::size_t k = 0; k < 4; ++k) {
+    const glm::dvec4 p = view.worldFromDepthClip * glm::dvec4(k == 1 || k == 2 ? 1 : -1, k < 2 ? -1 : 1, 0.5, 1);
+    corners[k] = glm::normalize(glm::dvec3(p) / p.w - view.eye());
   }
+  double least = glm::pi<double>();
+  const auto consider = [&](const glm::dvec3& way) {
+    least = std::min(least, std::atan2(glm::length(glm::cross(way, axis)), glm::dot(way, axis)));
+  };
+  for (std::size_t k = 0; k < 4; ++k) {
+    const glm::dvec3 &a = corners[k], &b = corners[(k + 1) % 4], normal = glm::cross(a, b);
+    const glm::dvec3 onEdge = axis - glm::dot(axis, normal) / glm::dot(normal, normal) * normal;
+    consider(a);
+    if (glm::dot(glm::cross(a, onEdge), normal) > 0 && glm::dot(glm::cross(onEdge, b), normal) > 0) consider(onEdge);
+  }
+  return least;
+}
+
+// Whether a camera has some of the ray from a lamp between its sides.
+bool sees(const Projection& camera, const Lamp& lamp, const glm::dvec3& way) {
+  const glm::dvec4 from = camera.depthClipFromWorld * glm::dvec4(lamp.position(), 1),
+                   step = camera.depthClipFromWorld * glm::dvec4(way, 0);
+  double begin = 0, end = lamp.light.range;
+  for (int side = 0; side < 4; ++side) { // inside of one are the distances t where at + t rate >= 0
+    const double sign = side < 2 ? 1 : -1;
+    const double at = from.w + sign * from[side % 2], rate = step.w + sign * step[side % 2];
+    if (rate == 0 && at < 0) return false;
+    if (rate > 0) begin = std::max(begin, -at / rate);
+    if (rate < 0) end = std::min(end, -at / rate);
+  }
+  return begin < end;
+}
+
+// A spot's view holds what the camera sees of its cone, whose rim is nearly dark.
+void checkCone(const Lamp& lamp, const Projection& camera, Findings& findings) {
+  const Projection& view = lamp.views.front();
   const std::string field = "lights[" + std::to_string(lamp.index) + "].";
-  constexpr double kRim = 1.1;
-  if (nearest > 1)
+  const glm::dvec3 axis = lamp.direction();
+  const double cone = lamp.light.outerConeAngle;
+  if (angleTo(view, axis) > cone) {
     refuse(lamp,
            lineOf(field + "direction", textOf(lamp.light.direction),
                   "all of the cone is outside of " + viewField(lamp.index, 0)),
            findings);
-  else if (farthest > kRim)
+    return;
+  }
+  const glm::dvec3 other = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 side = glm::normalize(glm::cross(axis, other)), up = glm::cross(axis, side);
+  for (int k = 0; k < 16; ++k) {
+    const double turn = k * glm::pi<double>() / 8;
+    const glm::dvec3 rim = std::cos(cone) * axis + std::sin(cone) * (std::cos(turn) * side + std::sin(turn) * up);
+    constexpr double kRim = 1.1;
+    if (awayFrom(view, rim) <= kRim || !sees(camera, lamp, rim)) continue;
     findings.warnings.push_back(
         lineOf(field + "outerConeAngle", text(cone),
                "a half angle, in radians; the cone reaches out of " + viewField(lamp.index, 0)));
+    return;
+  }
 }
 
 // Of an engine's projections all mirror, or none.
@@ -262,12 +297,15 @@ void checkCover(const Lamp& lamp, Findings& findings) {
                                            " directions " + std::to_string(open) + " are in no view (six faces are)"));
 }
 
+Projection projectionOf(const Camera& camera) {
+  return {toGlm(camera.clipFromView) * toGlm(camera.viewFromWorld), camera.clipDepth};
+}
+
 // Whether the camera mirrors, as views are not to.
 bool isMirrored(const Camera& camera) {
-  const glm::dmat4 viewFromWorld = toGlm(camera.viewFromWorld);
-  const Projection projection(toGlm(camera.clipFromView) * viewFromWorld, camera.clipDepth);
+  const Projection projection = projectionOf(camera);
   const glm::dvec3 forward = optics::isOrthographic(projection.depthClipFromWorld)
-                                 ? -glm::dvec3(glm::transpose(viewFromWorld)[2])
+                                 ? -glm::dvec3(glm::transpose(toGlm(camera.viewFromWorld))[2])
                                  : projection.forward();
   return projection.isMirrored(optics::isReversed(projection.depthClipFromWorld, forward));
 }
@@ -288,7 +326,7 @@ void checkViews(const Frame& frame, std::size_t index, Findings& findings) {
     checkMirror(lamp, mirrored, i, findings);
     if (lamp.isSun()) checkCascades(lamp, i, findings);
   }
-  if (lamp.light.kind == LightKind::Spot) checkCone(lamp, findings);
+  if (lamp.light.kind == LightKind::Spot) checkCone(lamp, projectionOf(frame.camera), findings);
   if (lamp.light.kind == LightKind::Point) checkCover(lamp, findings);
 }
 

@@ -109,6 +109,8 @@ void Scene::addLights() {
   lamp->setAttenuation(30, 0, 0, 1);
   lamp->setShadowNearClipDistance(0.2F);
   lamp->setShadowFarClipDistance(30);
+  // PSSM's setup would show a spot no more than the first split.
+  lamp->setCustomShadowCameraSetup(std::make_shared<Ogre::DefaultShadowCameraSetup>());
   Ogre::SceneNode* lampNode = manager_->getRootSceneNode()->createChildSceneNode(Ogre::Vector3(-4.5F, 3.2F, -8));
   lampNode->setDirection(Ogre::Vector3(1, -0.15F, 0.45F), Ogre::Node::TS_WORLD);
   lampNode->attachObject(lamp);

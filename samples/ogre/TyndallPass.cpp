@@ -126,7 +126,7 @@ void TyndallPass::render(Ogre::SceneManager& scene, Operation& operation) {
   }
   if (adjust) adjust(frame);
   const tyndall::Status status = effect_->render(frame);
-  if (status.message != message_) Ogre::LogManager::getSingleton().logError("Tyndall: " + status.message);
+  if (!status && status.message != message_) Ogre::LogManager::getSingleton().logError("Tyndall: " + status.message);
   message_ = status.message;
 }
 

@@ -3,6 +3,7 @@
 #include "GlState.h"
 
 #include "gl/ReadBack.h"
+#include "reference/CameraRays.h"
 #include "support/Catch.h"
 
 #include <algorithm>
@@ -122,6 +123,46 @@ TEST_CASE("right inputs are warned of nowhere: an orthographic camera, and one i
   tests::ShaftRig roofed = rightRig(kSun); // below a roof that shades all that is seen
   roofed.setMoving({glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(-5, 9, -30)), glm::dvec3(60, 0.1, 60))});
   checkRight(roofed);
+}
+
+// As engines focus maps on what the camera sees: less than the cone, and beside its axis.
+TEST_CASE("a spot's view of what the camera sees of its cone is right, of less is warned of, of nothing refused") {
+  tests::ShaftRig rig = rightRig(kSpot);
+  Frame& frame = frameOf(rig);
+  Light& lamp = lightOf(rig);
+  const glm::dmat4 whole = reference::toMat4(lamp.shadow.views[0].clipFromWorld);
+  const glm::dvec3 position(lamp.position[0], lamp.position[1], lamp.position[2]);
+  const auto focus = [&](double x, double y) { // on a tenth of the picture
+    const glm::dmat4 part =
+        glm::scale(glm::dmat4(1), glm::dvec3(10, 10, 1)) * glm::translate(glm::dmat4(1), glm::dvec3(-x, -y, 0));
+    lamp.shadow.views[0].clipFromWorld = tests::toMat4(part * whole);
+    const glm::dvec4 middle = glm::inverse(whole) * glm::dvec4(x, y, 0.5, 1);
+    return glm::dvec3(middle) / middle.w;
+  };
+  const tyndall::Mat4 wide = frame.camera.clipFromView;
+  const auto look = [&](const glm::dvec3& target, double zoom) {
+    rig.look(tests::lookAt(position + 0.1 * (target - position), target));
+    frame.camera.clipFromView =
+        tests::toMat4(glm::scale(glm::dmat4(1), glm::dvec3(zoom, zoom, 1)) * reference::toMat4(wide));
+  };
+  const auto effect = tests::newEffect();
+  for (const glm::dvec2& part : {glm::dvec2(0.45, 0), glm::dvec2(0, -0.45), glm::dvec2(0.25, 0.3)}) {
+    CAPTURE(part.x, part.y);
+    const glm::dvec3 target = focus(part.x, part.y);
+    look(target, 30);
+    const Outcome focused = render(*effect, frame, 1);
+    CAPTURE(focused.status.message, joined(focused.warnings));
+    CHECK(focused.status);
+    CHECK(focused.warnings.empty());
+    look(target, 1);
+    const Outcome less = render(*effect, frame, 1);
+    CHECK(less.status);
+    CHECK(less.names({"lights[0].outerConeAngle", "reaches out of lights[0].shadow.views[0]"}));
+  }
+  focus(1.6, 1.6);
+  const Outcome nothing = render(*effect, frame, 1);
+  CHECK(nothing.status.code == StatusCode::InvalidFrame);
+  CHECK(nothing.status.message.find("all of the cone is outside") != std::string::npos);
 }
 
 TEST_CASE("exact takes views that are elsewhere than their light, and warns") {
