@@ -80,8 +80,11 @@ void GLAD_API_PTR setBinary(GLuint program, GLenum format, const void* bytes, GL
 }
 void GLAD_API_PTR hint(GLuint /*program*/, GLenum /*name*/, GLint /*value*/) {}
 const GLubyte* GLAD_API_PTR newerDriver(GLenum name) {
-  if (name == GL_VERSION) return reinterpret_cast<const GLubyte*>("4.5 newer");
-  return host::gl().GetString(name);
+  static std::string version;
+  const GLubyte* const its = host::gl().GetString(name);
+  if (name != GL_VERSION) return its;
+  version = std::string(reinterpret_cast<const char*>(its)) + " newer";
+  return reinterpret_cast<const GLubyte*>(version.c_str());
 }
 
 const std::map<std::string, void*> kDriver = {
