@@ -19,9 +19,10 @@ std::string textOf(const Vector& v) {
   return "(" + text(v[0]) + ", " + text(v[1]) + ", " + text(v[2]) + ")";
 }
 
+inline std::string textOf(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
+
 inline std::string textOf(const Rectangle& r) {
-  return std::to_string(r.width) + " x " + std::to_string(r.height) + " at (" + std::to_string(r.x) + ", " +
-         std::to_string(r.y) + ")";
+  return textOf(r.width, r.height) + " at (" + std::to_string(r.x) + ", " + std::to_string(r.y) + ")";
 }
 
 /// "Frame::lights[0].range is -1: must be > 0"; without a value "Frame::field: the rule".
