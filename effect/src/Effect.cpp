@@ -107,7 +107,7 @@ void Effect::State::draw(const PlannedFrame& planned, gl::StateGuard& guard) {
   guard.saveUnits(units.count, units.kinds);
   if (units.stencil) guard.saveStencil();
   if (units.scissor) guard.saveScissorBox();
-  if (units.copies) guard.saveReadFramebuffer();
+  if (units.copies || planned.checks != 0) guard.saveReadFramebuffer();
   recorder.countMarched(planned.plan.marched);
   drawPlan(planned.plan, gl, {vertexArray.name(), nearestSampler.name(), planned.empty, blocks}, recorder, paces);
   visits = planned.visits;

@@ -5,6 +5,7 @@
 #include "gl/StateGuard.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace tyndall {
@@ -111,34 +112,18 @@ Status Effect::State::check(const char* function) {
   return checkUnderWay(gl, function);
 }
 
-namespace {
-
-// OpenGL ES: as it has no glGetTexImage.
-gl::Float readThroughFramebuffer(const gl::Functions& gl, gl::Uint texture) {
-  gl::Int bound = 0;
-  gl.GetIntegerv(gl::READ_FRAMEBUFFER_BINDING, &bound);
-  const gl::Framebuffer framebuffer(gl);
-  gl.BindFramebuffer(gl::READ_FRAMEBUFFER, framebuffer.name());
-  gl.FramebufferTexture2D(gl::READ_FRAMEBUFFER, gl::COLOR_ATTACHMENT0, gl::TEXTURE_2D, texture, 0);
-  gl::Float texel[4] = {};
-  gl.ReadPixels(0, 0, 1, 1, gl::RGBA, gl::FLOAT, texel);
-  gl.BindFramebuffer(gl::READ_FRAMEBUFFER, static_cast<gl::Uint>(bound));
-  return texel[0];
-}
-
-} // namespace
-
 // Waits for the GPU, which who asks for statistics may.
 double Effect::State::visitsPerRay() const {
   if (visits == 0) return 0;
-  const gl::StateGuard guard(gl, StateMode::Restore);
+  gl::StateGuard guard(gl, StateMode::Restore);
+  guard.saveReadFramebuffer();
   const gl::PackGuard packing(gl, StateMode::Restore);
-  if (!gl.GetTexImage) return readThroughFramebuffer(gl, visits);
-  gl::Float mean = 0;
-  gl.ActiveTexture(gl::TEXTURE0);
-  gl.BindTexture(gl::TEXTURE_2D, visits);
-  gl.GetTexImage(gl::TEXTURE_2D, 0, gl::RED, gl::FLOAT, &mean);
-  return mean;
+  const gl::Framebuffer framebuffer(gl);
+  gl.BindFramebuffer(gl::READ_FRAMEBUFFER, framebuffer.name());
+  gl.FramebufferTexture2D(gl::READ_FRAMEBUFFER, gl::COLOR_ATTACHMENT0, gl::TEXTURE_2D, visits, 0);
+  std::array<gl::Float, 4> mean = {};
+  gl.ReadPixels(0, 0, 1, 1, gl::RGBA, gl::FLOAT, mean.data());
+  return mean[0];
 }
 
 // ---------------------------------------------------------------------------------------------------------------------

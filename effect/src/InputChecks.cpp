@@ -2,6 +2,7 @@
 
 #include "SharedBlocks.h"
 #include "gl/OwnErrors.h"
+#include "gl/ReadBuffer.h"
 #include "gl/StateGuard.h"
 
 #include <algorithm>
@@ -11,16 +12,18 @@ namespace tyndall {
 namespace {
 
 constexpr std::size_t kPoints = CHECK_WIDTH * CHECK_HEIGHT;
-constexpr std::size_t kBytes = 2 * kPoints * kMaxLights;
+constexpr std::size_t kChannels = 4; // as whatever has normalised texels is read in every context, OpenGL ES, too
+constexpr std::size_t kBytes = kChannels * 2 * kPoints * kMaxLights;
 
 InputCounts countsOf(const unsigned char* points) {
   InputCounts counts;
   const std::array<int*, 6> kinds = {&counts.nothing, &counts.agree, &counts.hidden,
                                      &counts.missing, &counts.empty, &counts.outside};
   for (std::size_t i = 0; i < kPoints; ++i) {
-    ++*kinds[std::min<std::size_t>(points[i] & 7, kinds.size() - 1)];
-    counts.special += points[i] >> 3 & 1;
-    counts.atNear += points[i] >> 4 & 1;
+    const unsigned char point = points[kChannels * i];
+    ++*kinds[std::min<std::size_t>(point & 7, kinds.size() - 1)];
+    counts.special += point >> 3 & 1;
+    counts.atNear += point >> 4 & 1;
   }
   return counts;
 }
@@ -134,6 +137,7 @@ Status InputChecks::reserve(StateMode state) {
   const gl::PackGuard packing(gl_, state); // the target is its own
   gl::OwnErrors errors(gl_);
   batch->buffer = gl::Buffer(gl_);
+  if (!reader_) reader_ = gl::Framebuffer(gl_);
   gl_.BindBuffer(gl::PIXEL_PACK_BUFFER, batch->buffer.name());
   gl_.BufferData(gl::PIXEL_PACK_BUFFER, kBytes, nullptr, gl::STREAM_READ);
   gl_.BindBuffer(gl::PIXEL_PACK_BUFFER, 0);
@@ -147,9 +151,10 @@ void InputChecks::ask(gl::Uint texture, CheckedLights lights, StateMode state) {
   if (!batch) return;
   const gl::PackGuard packing(gl_, state);
   gl_.BindBuffer(gl::PIXEL_PACK_BUFFER, batch->buffer.name());
-  gl_.ActiveTexture(gl::TEXTURE0);
-  gl_.BindTexture(gl::TEXTURE_2D, texture);
-  gl_.GetTexImage(gl::TEXTURE_2D, 0, gl::RED, gl::UNSIGNED_BYTE, nullptr);
+  gl_.BindFramebuffer(gl::READ_FRAMEBUFFER, reader_.name());
+  gl_.FramebufferTexture2D(gl::READ_FRAMEBUFFER, gl::COLOR_ATTACHMENT0, gl::TEXTURE_2D, texture, 0);
+  gl_.ReadPixels(0, 0, CHECK_WIDTH, 2 * CHECK_HEIGHT * static_cast<gl::Sizei>(kMaxLights), gl::RGBA, gl::UNSIGNED_BYTE,
+                 nullptr);
   gl_.BindBuffer(gl::PIXEL_PACK_BUFFER, 0);
   batch->sync = gl_.FenceSync(gl::SYNC_GPU_COMMANDS_COMPLETE, 0);
   batch->lights = lights;
@@ -176,12 +181,13 @@ void InputChecks::receive() {
 void InputChecks::take(const Batch& batch) {
   std::vector<unsigned char> points(kBytes);
   gl_.BindBuffer(gl::UNIFORM_BUFFER, batch.buffer.name());
-  gl_.GetBufferSubData(gl::UNIFORM_BUFFER, 0, kBytes, points.data());
+  gl::readBuffer(gl_, gl::UNIFORM_BUFFER, points.data(), points.size());
   std::vector<LightChecks> lights;
   for (std::size_t i = 0; i < kMaxLights; ++i)
     if (batch.lights.all >> i & 1U)
       lights.push_back({i, (batch.lights.suns >> i & 1U) != 0, (batch.lights.hazy >> i & 1U) != 0,
-                        countsOf(&points[2 * i * kPoints]), countsOf(&points[(2 * i + 1) * kPoints])});
+                        countsOf(&points[kChannels * 2 * i * kPoints]),
+                        countsOf(&points[kChannels * (2 * i + 1) * kPoints])});
   warnings_ = judge(lights);
   known_ = batch.number;
 }

@@ -48,8 +48,8 @@ public:
   /// Has room for what a frame asks for.
   Status reserve(StateMode state);
 
-  /// Has the texture (Resource::InputChecks) copied, of these lights, unless the GPU is behind. Binds to
-  /// texture unit 0, and activates it.
+  /// Has the texture (Resource::InputChecks) copied, of these lights, unless the GPU is behind. Binds a
+  /// framebuffer to be read.
   void ask(gl::Uint texture, CheckedLights lights, StateMode state);
 
   /// A frame has nothing to be checked: what is under way is of others.
@@ -75,6 +75,7 @@ private:
   void take(const Batch& batch);
 
   const gl::Functions& gl_;
+  gl::Framebuffer reader_;       // null likewise
   std::array<Batch, 3> batches_; // as many frames as an engine has under way
   std::uint64_t asked_ = 0, known_ = 0;
   std::vector<std::string> warnings_;

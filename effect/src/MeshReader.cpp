@@ -1,6 +1,7 @@
 #include "MeshReader.h"
 
 #include "gl/OwnErrors.h"
+#include "gl/ReadBuffer.h"
 
 #include <algorithm>
 #include <cstring>
@@ -19,16 +20,6 @@ std::uint64_t bytesOf(const MeshVertices& mesh, std::uint32_t count) {
 
 Status invalid(const std::string& field, const std::string& rule) {
   return {StatusCode::InvalidFrame, "Frame::" + field + rule};
-}
-
-// Of the buffer that is bound.
-void readBuffer(const gl::Functions& gl, std::vector<unsigned char>& data) {
-  const auto size = static_cast<gl::Sizeiptr>(data.size());
-  if (gl.GetBufferSubData) return gl.GetBufferSubData(gl::UNIFORM_BUFFER, 0, size, data.data());
-  const void* mapped = gl.MapBufferRange(gl::UNIFORM_BUFFER, 0, size, gl::MAP_READ_BIT);
-  if (!mapped) return;
-  std::memcpy(data.data(), mapped, data.size());
-  gl.UnmapBuffer(gl::UNIFORM_BUFFER);
 }
 
 } // namespace
@@ -144,7 +135,7 @@ std::vector<MeshReader::Mesh> MeshReader::receive() {
 void MeshReader::take(const Batch& batch) {
   std::vector<unsigned char> data(batch.used);
   gl_.BindBuffer(gl::UNIFORM_BUFFER, batch.buffer.name());
-  readBuffer(gl_, data);
+  gl::readBuffer(gl_, gl::UNIFORM_BUFFER, data.data(), data.size());
   for (const Piece& piece : batch.pieces) {
     const auto found =
         std::find_if(readings_.begin(), readings_.end(), [&](const Reading& r) { return r.id == piece.reading; });

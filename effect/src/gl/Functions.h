@@ -152,11 +152,11 @@ enum class Language { Glsl, Essl };
   X(void, CopyBufferSubData, (Enum from, Enum to, Intptr fromOffset, Intptr toOffset, Sizeiptr size), None)            \
   X(Sync, FenceSync, (Enum condition, Bitfield flags), None)                                                           \
   X(Enum, ClientWaitSync, (Sync sync, Bitfield flags, Uint64 nanoseconds), None)                                       \
-  X(void, DeleteSync, (Sync sync), None)
+  X(void, DeleteSync, (Sync sync), None)                                                                               \
+  X(void, ReadPixels, (Int x, Int y, Sizei width, Sizei height, Enum format, Enum type, void* pixels), PixelStorage)
 
 // Functions that OpenGL ES lacks; null there, but for those that an extension brings under another name.
 #define TYNDALL_GL_DESKTOP(X)                                                                                          \
-  X(void, GetTexImage, (Enum target, Int level, Enum format, Enum type, void* pixels), PixelStorage)                   \
   X(void, GetBufferSubData, (Enum target, Intptr offset, Sizeiptr size, void* data), None)                             \
   X(void, PolygonMode, (Enum face, Enum mode), PolygonMode)                                                            \
   X(void, QueryCounter, (Uint query, Enum target), None)                                                               \
@@ -165,8 +165,7 @@ enum class Language { Glsl, Essl };
 // What takes their place there; null in others.
 #define TYNDALL_GL_EMBEDDED(X)                                                                                         \
   X(void*, MapBufferRange, (Enum target, Intptr offset, Sizeiptr size, Bitfield access), None)                         \
-  X(Boolean, UnmapBuffer, (Enum target), None)                                                                         \
-  X(void, ReadPixels, (Int x, Int y, Sizei width, Sizei height, Enum format, Enum type, void* pixels), PixelStorage)
+  X(Boolean, UnmapBuffer, (Enum target), None)
 
 // Functions of later versions that state of later versions needs; null where the context lacks them. A loader may know
 // some that a context does not: the version decides, and where it is too low an extension (LoadFunctions.cpp).

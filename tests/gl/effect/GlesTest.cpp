@@ -3,6 +3,7 @@
 // EGL.
 #include "FakeContext.h"
 #include "FrameCases.h"
+#include "Mistakes.h"
 #include "ShaftRig.h"
 #include "gl/ReadBack.h"
 #include "support/Catch.h"
@@ -315,6 +316,24 @@ TEST_CASE("OpenGL ES: what a frame gets wrong is said, and nothing is drawn", "[
     gl().TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_G, GL_ZERO);
     f.output.inscatter = swizzled.name();
   });
+}
+
+TEST_CASE("OpenGL ES: inputs are checked by their pixels, too", "[gles][once]") {
+  Config config{tests::testContext().loader()};
+  config.checkInputs = true;
+  const std::unique_ptr<Effect> effect = tests::newEffect(config);
+  tests::ShaftRig rig = tests::rightRig(LightKind::Directional);
+  const auto warnings = [&] {
+    for (int i = 0; i < 3; ++i) {
+      REQUIRE(effect->render(rig.scene.frame));
+      gl().Finish();
+    }
+    return effect->statistics().warnings;
+  };
+  CHECK(warnings().empty());
+  rig.scene.frame.camera.viewFromWorld = tests::lookAt({0, 2, 0}, {1, 2, -1}); // depth is another's
+  REQUIRE_FALSE(warnings().empty());
+  CHECK(warnings()[0].find("Frame::lights[0].shadow: ") == 0);
 }
 
 TEST_CASE("OpenGL ES: what a context lacks has another way, or is said by create", "[gles][once]") {
