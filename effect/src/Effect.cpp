@@ -61,7 +61,7 @@ Status Effect::State::takeChecks(const Frame& frame, const FrameTextures& textur
     warnings.insert(warnings.end(), found.begin(), found.end());
     return {};
   }
-  const Status status{StatusCode::InvalidFrame, found.front()};
+  Status status{StatusCode::InvalidFrame, found.front()};
   beginStatistics();
   PlannedFrame planned;
   if (Status s = planFrame(frame, textures, nullptr, planned, Draws::CheckOnly); !s) return s;

@@ -23,7 +23,7 @@ LightRedraw planLight(const KeptEye& eye, const FrameKey& key, std::size_t i, co
     light.comparesEnds = !frame.objects.empty();
     light.comparesRows = hasMap && light.comparesEnds;
   }
-  if (!sameFrame || !last || !same(light.key, last->key)) return light;
+  if (!sameFrame || !eye.last || !last || !same(light.key, last->key)) return light;
   light.mixesEnds = last->mixedEnds || eye.last->key.jitter != key.jitter;
   const bool changes = light.comparesEnds || light.comparesRows || frame.reuse.refreshFrames > 0;
   light.redraw = changes ? Redraw::Part : Redraw::Nothing;

@@ -145,10 +145,10 @@ void planSlices(LightPlanner& light, LightRedraw& redraw, Redrawing& frame) {
     light.plan.skip(light.name, "nothing has changed: its slices are kept");
     return;
   }
-  light.copyMaps(hasCopies(light, redraw, kept) ? &kept.last->board : nullptr);
+  light.copyMaps(kept.last && hasCopies(light, redraw, kept) ? &kept.last->board : nullptr);
   light.makeSlices(frame.limits);
   if (light.draws() > 1) redraw.redraw = Redraw::All; // rows are not at hand together, nor kept
-  if (redraw.redraw == Redraw::All)
+  if (redraw.redraw == Redraw::All || !kept.last)
     planAll(light, frame);
   else
     planChanged(light, *kept.last, redraw, frame);
