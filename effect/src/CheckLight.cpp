@@ -85,7 +85,7 @@ Status checkViews(const std::string& light, LightKind kind, const ShadowMap& sha
   const std::size_t count = shadow.views.size();
   const char* rule = kind == LightKind::Directional ? "a directional light has 1 to 4 (cascades)"
                      : kind == LightKind::Spot      ? "a spot light has 1"
-                                                    : "a point light has 1 to 6 (cube faces)";
+                                                    : "a point light has 1 to 6, or shadow.cube.enabled";
   const std::size_t most = kind == LightKind::Directional ? 4 : kind == LightKind::Spot ? 1 : 6;
   if (count < 1 || count > most) return invalid(light + "shadow.views", std::to_string(count) + " long", rule);
   const bool anyWhole = std::any_of(shadow.views.begin(), shadow.views.end(),

@@ -39,24 +39,25 @@ Status Effect::State::render(const Frame& given) {
   Frame frame = withCubeViews(given);
   if (Status s = checkTextures(gl, frame, textures); !s) return s;
   chooseCopies(frame, textures);
-  if (Status s = takeChecks(frame, textures, guard); !s) return s;
+  if (Status s = takeChecks(given, frame, textures, guard); !s) return s;
   if (Status s = takeMeshes(frame); !s) return s;
   beginStatistics();
   KeptEye* eye = eyeOf(frame);
   frame.camera = steadyCamera(frame, eye);
   PlannedFrame planned;
   Status status = planFrame(frame, textures, eye, planned);
-  if (status) draw(planned, guard);
+  if (status) draw(given, planned, guard);
   keep(frame, eye, status ? &planned : nullptr);
   return status;
 }
 
 // What earlier frames' pixels said. Of a frame that is refused for that only the check is drawn: until it finds
 // nothing.
-Status Effect::State::takeChecks(const Frame& frame, const FrameTextures& textures, gl::StateGuard& guard) {
+Status Effect::State::takeChecks(const Frame& given, const Frame& frame, const FrameTextures& textures,
+                                 gl::StateGuard& guard) {
   if (!checksInputs) return {};
   inputChecks.receive();
-  const std::vector<std::string>& found = inputChecks.warnings();
+  const std::vector<std::string>& found = inputChecks.warnings(given);
   if (found.empty() || !warningsAreErrors) {
     warnings.insert(warnings.end(), found.begin(), found.end());
     return {};
@@ -65,7 +66,7 @@ Status Effect::State::takeChecks(const Frame& frame, const FrameTextures& textur
   beginStatistics();
   PlannedFrame planned;
   if (Status s = planFrame(frame, textures, nullptr, planned, Draws::CheckOnly); !s) return s;
-  draw(planned, guard);
+  draw(given, planned, guard);
   targets.endFrame();
   return status;
 }
@@ -102,7 +103,7 @@ Status Effect::State::planFrame(const Frame& frame, const FrameTextures& texture
   return blocks.upload(planned.plan, limits.blockAlignment);
 }
 
-void Effect::State::draw(const PlannedFrame& planned, gl::StateGuard& guard) {
+void Effect::State::draw(const Frame& given, const PlannedFrame& planned, gl::StateGuard& guard) {
   const UnitsUsed units = unitsOf(planned.plan);
   guard.saveUnits(units.count, units.kinds);
   if (units.stencil) guard.saveStencil();
@@ -112,9 +113,9 @@ void Effect::State::draw(const PlannedFrame& planned, gl::StateGuard& guard) {
   drawPlan(planned.plan, gl, {vertexArray.name(), nearestSampler.name(), planned.empty, blocks}, recorder, paces);
   visits = planned.visits;
   if (planned.checks != 0)
-    inputChecks.ask(planned.checks, planned.checkedLights, stateMode);
-  else
-    inputChecks.forget();
+    inputChecks.ask(planned.checks, given, planned.checkedLights, stateMode);
+  else if (checksInputs)
+    inputChecks.forget(given);
 }
 
 // All that is planned sees the camera without its jitter, as the eye's last frame saw it if that has not moved.

@@ -57,8 +57,8 @@ struct Effect::State {
   void beginStatistics();
   Status planFrame(const Frame& frame, const FrameTextures& textures, KeptEye* eye, PlannedFrame& planned,
                    Draws what = Draws::All);
-  Status takeChecks(const Frame& frame, const FrameTextures& textures, gl::StateGuard& guard);
-  void draw(const PlannedFrame& planned, gl::StateGuard& guard);
+  Status takeChecks(const Frame& given, const Frame& frame, const FrameTextures& textures, gl::StateGuard& guard);
+  void draw(const Frame& given, const PlannedFrame& planned, gl::StateGuard& guard);
   void keep(const Frame& frame, KeptEye* eye, PlannedFrame* planned);
   Status render(const Frame& frame);
   PrepareStatus prepare(const Frame& frame);

@@ -25,9 +25,10 @@ void checkRow(const Camera& camera, Findings& findings) {
   const bool inverted = optics::hasUsualRow(glm::inverse(clipFromView));
   if (transposed || inverted)
     return findings.wrong(
-        {StatusCode::InvalidFrame,
-         "Frame::camera.clipFromView " + row + ": it is " + (transposed ? "transposed (mat4RowMajor takes rows)" : "") +
-             (transposed && inverted ? ", or " : "") + (inverted ? "the inverse of a projection, viewFromClip" : "")});
+        {StatusCode::InvalidFrame, "Frame::camera.clipFromView " + row + ": it is " +
+                                       (transposed ? "transposed (take the other of mat4 and mat4RowMajor)" : "") +
+                                       (transposed && inverted ? ", or " : "") +
+                                       (inverted ? "the inverse of a projection, viewFromClip" : "")});
   findings.warnings.push_back("Frame::camera.clipFromView " + row +
                               ": projections have (0, 0, -1, 0) or (0, 0, 0, 1); is a view matrix in it, too?");
 }

@@ -76,7 +76,7 @@ std::string remedyOf(const Lamp& lamp, std::size_t view) {
   const auto fits = [&](const glm::dmat4& matrix) {
     return offOf(lamp, Projection(matrix, lamp.light.shadow.clipDepth)) <= kMostOff;
   };
-  if (fits(glm::transpose(given))) return "; it is transposed (mat4RowMajor takes rows)";
+  if (fits(glm::transpose(given))) return "; it is transposed: take the other of mat4 and mat4RowMajor";
   if (fits(glm::inverse(given))) return "; it is the inverse, worldFromClip";
   if (fits(glm::inverse(glm::transpose(given)))) return "; it is the inverse, transposed";
   return "";
@@ -323,7 +323,7 @@ void checkViews(const Frame& frame, std::size_t index, Findings& findings) {
     checkPlanes(lamp, i, findings);
     checkLayers(lamp, i, findings);
     if (!findings.error) return;
-    checkMirror(lamp, mirrored, i, findings);
+    if (i == 0 || !lamp.isSun()) checkMirror(lamp, mirrored, i, findings);
     if (lamp.isSun()) checkCascades(lamp, i, findings);
   }
   if (lamp.light.kind == LightKind::Spot) checkCone(lamp, projectionOf(frame.camera), findings);

@@ -14,10 +14,11 @@ float doublings(ivec2 pixel) { return log2(max(seenIn(min(pixel, frameSize - 1))
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  int view, found = surfaceInMap(pixel, view) & 7;
+  int view, hints, found = surfaceInMap(pixel, view, hints) & 7;
   float end = seenIn(pixel), here = floor(doublings(pixel));
   bool onLine = here != floor(doublings(pixel + ivec2(1, 0))) || here != floor(doublings(pixel + ivec2(0, 1)));
-  vec3 hue = clamp(abs(fract(float(view) * 0.17 + 0.33 + vec3(0.0, 2.0, 1.0) / 3.0) * 6.0 - 3.0) - 1.0, 0.0, 1.0);
+  int step = 3 * (view % 2) + view / 2; // neighbours far apart, from yellow to blue: the rest is that of mistakes
+  vec3 hue = clamp(abs(fract(float(step) * 0.095 + 0.17 + vec3(0.0, 2.0, 1.0) / 3.0) * 6.0 - 3.0) - 1.0, 0.0, 1.0);
   vec3 colour = view < 0 ? vec3(0.5) : 0.25 + 0.75 * hue;
   if (found == kHidden) colour *= 0.35;
   if (found == kMissing) colour = vec3(1.0, 0.0, 1.0);

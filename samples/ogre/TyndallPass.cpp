@@ -12,7 +12,6 @@ using Places = std::map<Ogre::String, Place>;
 constexpr unsigned kTexture2D = 0x0DE1, kTexture2DArray = 0x8C1A; // GL's names
 
 tyndall::Mat4 mat4(const Ogre::Matrix4& matrix) { return tyndall::mat4RowMajor(matrix[0]); }
-tyndall::Vec3 vec3(const Ogre::Vector3& v) { return {v.x, v.y, v.z}; }
 unsigned nameOf(const Ogre::TexturePtr& texture) { return texture->getCustomAttribute("GLID"); }
 
 /// As drawn into a texture, which OGRE does with row 0 at the top.
@@ -29,10 +28,10 @@ tyndall::Light lightOf(const Ogre::Light& from) {
   tyndall::Light light;
   const Ogre::ColourValue colour = from.getDiffuseColour() * from.getPowerScale();
   light.colour = {colour.r, colour.g, colour.b};
-  light.direction = vec3(from.getDerivedDirection());
+  light.direction = tyndall::vec3(from.getDerivedDirection());
   if (from.getType() == Ogre::Light::LT_DIRECTIONAL) return light;
   light.kind = from.getType() == Ogre::Light::LT_POINT ? tyndall::LightKind::Point : tyndall::LightKind::Spot;
-  light.position = vec3(from.getDerivedPosition());
+  light.position = tyndall::vec3(from.getDerivedPosition());
   light.range = from.getAttenuationRange();
   light.innerConeAngle = from.getSpotlightInnerAngle().valueRadians() / 2; // OGRE's are whole angles
   light.outerConeAngle = from.getSpotlightOuterAngle().valueRadians() / 2;

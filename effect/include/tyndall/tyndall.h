@@ -20,6 +20,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace tyndall {
@@ -50,6 +51,16 @@ Mat4 mat4(const Matrix& matrix) {
     for (int row = 0; row < 4; ++row)
       copy[static_cast<std::size_t>(4 * column + row)] = static_cast<double>(matrix[column][row]);
   return copy;
+}
+
+/// Copies whatever has members x, y and z: glm::vec3, Ogre::Vector3.
+template <typename Vector>
+Vec3 vec3(const Vector& v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
+template <typename Vector>
+Rgb rgb(const Vector& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -465,8 +476,26 @@ struct Statistics {
   std::vector<std::string> warnings = {};
 };
 
-/// Resolves a GL function by name, as glfwGetProcAddress or eglGetProcAddress do.
-using GlLoader = void* (*)(const char* name);
+/// Resolves a GL function by name: glfwGetProcAddress, eglGetProcAddress, SDL_GL_GetProcAddress, gladGetProcAddress or
+/// a function of the engine's (a lambda that captures nothing), which return void* or a pointer to a function.
+class GlLoader {
+public:
+  using Untyped = void* (*)(const char* name);
+  using Typed = void (*(*)(const char* name))();
+
+  GlLoader(std::nullptr_t = nullptr) {}
+  template <typename Function, std::enable_if_t<std::is_convertible_v<Function, Untyped>, int> = 0>
+  GlLoader(Function function) : untyped_(function) {}
+  template <typename Function, std::enable_if_t<std::is_convertible_v<Function, Typed>, long> = 0>
+  GlLoader(Function function) : typed_(function) {}
+
+  explicit operator bool() const { return untyped_ || typed_; }
+  void* operator()(const char* name) const { return typed_ ? reinterpret_cast<void*>(typed_(name)) : untyped_(name); }
+
+private:
+  Untyped untyped_ = nullptr;
+  Typed typed_ = nullptr;
+};
 
 /// Where an engine keeps linked programs from one run to the next, so that they need not be compiled again. A key is a
 /// file name of letters, digits, '-' and '_'; it holds what the bytes depend on: shader texts, driver, GL version.

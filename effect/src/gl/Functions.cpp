@@ -1,5 +1,7 @@
 #include "gl/Functions.h"
 
+#include <tyndall/tyndall.h>
+
 namespace tyndall::gl {
 
 #define TYNDALL_GL_LOAD(result, function, arguments, state)                                                            \
@@ -8,14 +10,14 @@ namespace tyndall::gl {
   TYNDALL_GL_LOAD(result, function, arguments, state)                                                                  \
   if (!function && missing.empty()) missing = "gl" #function;
 
-std::string Functions::load(void* (*loader)(const char*)) {
+std::string Functions::load(GlLoader loader) {
   std::string missing;
   TYNDALL_GL_REQUIRED(TYNDALL_GL_REQUIRE)
   TYNDALL_GL_OPTIONAL(TYNDALL_GL_LOAD)
   return missing;
 }
 
-std::string Functions::loadOwn(void* (*loader)(const char*)) {
+std::string Functions::loadOwn(GlLoader loader) {
   std::string missing;
   if (language == Language::Essl) {
     TYNDALL_GL_EMBEDDED(TYNDALL_GL_REQUIRE)

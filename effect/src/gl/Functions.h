@@ -14,6 +14,10 @@
 
 struct __GLsync; // NOLINT(bugprone-reserved-identifier): the name that GL's headers give it, part of functions' types
 
+namespace tyndall {
+class GlLoader;
+}
+
 namespace tyndall::gl {
 
 using Enum = std::uint32_t;
@@ -231,9 +235,9 @@ struct Functions {
   int clipDistances = 0;        ///< that may be enabled
 
   /// Fills the table. Returns the name of the first required function that the loader does not know, empty if all are.
-  std::string load(void* (*loader)(const char*));
+  std::string load(GlLoader loader);
   /// Likewise what only this kind of context has: desktop, embedded, of the compatibility profile.
-  std::string loadOwn(void* (*loader)(const char*));
+  std::string loadOwn(GlLoader loader);
 };
 
 } // namespace tyndall::gl

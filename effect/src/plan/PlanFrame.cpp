@@ -314,9 +314,7 @@ void FramePlanner::planCheck() {
     options.viewport = Viewport{0, static_cast<int>(2 * CHECK_HEIGHT * i), CHECK_WIDTH, 2 * CHECK_HEIGHT};
     light.draw(Pass::CheckInputs, options);
     out_.checks = light.board[Resource::InputChecks];
-    out_.checkedLights.all |= 1U << i;
-    if (light.light.kind == LightKind::Directional) out_.checkedLights.suns |= 1U << i;
-    if (light.variant.curves) out_.checkedLights.hazy |= 1U << i;
+    out_.checkedLights.push_back(i);
   }
 }
 

@@ -1,7 +1,6 @@
 // A frame's plan: which lights, which passes, with what programs, textures, framebuffers and blocks.
 #pragma once
 
-#include "InputChecks.h"
 #include "plan/LightPlanner.h"
 #include "reuse/RedrawPlan.h"
 
@@ -33,7 +32,7 @@ struct PlannedFrame {
   gl::Uint empty = 0;  ///< what a sampler reads that has nothing to read
   gl::Uint visits = 0; ///< DebugView::NodeVisits: a texture that holds their mean
   gl::Uint checks = 0; ///< Resource::InputChecks, of these lights:
-  CheckedLights checkedLights;
+  std::vector<std::size_t> checkedLights = {};
 };
 
 class FramePlanner {

@@ -196,7 +196,7 @@ constexpr ResourceRow kRows[] = {
     {"changed tiles", kR32, kR32, always, always, tiles, tiles, Lifetime::Frame, "the same: squares of 16 x 16 pixels"},
     {"last depth", kR32, kR32, always, always, image, image, Lifetime::Eye,
      "the same: the last frame's scene depth, where it is compared"},
-    {"input checks", kR8, kR8, always, always, checks, checks, Lifetime::Frame,
+    {"input checks", kRgba8, kRgba8, always, always, checks, checks, Lifetime::Frame,
      "Config::checkInputs: what scene depth and each light's shadow map say of each other"},
     {"debug view", kRgba32, kRgba32, always, always, image, image, Lifetime::Frame,
      "debug views of slices: what is counted or shown, until all lights are done"},

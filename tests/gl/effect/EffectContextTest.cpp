@@ -76,6 +76,17 @@ host::ContextKind otherKind() {
 
 } // namespace
 
+TEST_CASE("a loader returns addresses or functions: those of GLFW, EGL and SDL are taken as they are") {
+  static GlLoader real;
+  real = tests::testContext().loader();
+  CHECK(Effect::create({[](const char* name) { return real(name); }}).effect);
+  CHECK(Effect::create({[](const char* name) { return reinterpret_cast<void (*)()>(real(name)); }}).effect);
+  void (*(*const typed)(const char*))() = [](const char* name) { return reinterpret_cast<void (*)()>(real(name)); };
+  CHECK(Effect::create({typed}).effect);
+  CHECK_FALSE(GlLoader());
+  CHECK_FALSE(GlLoader(nullptr));
+}
+
 TEST_CASE("create without a loader is refused") {
   requireStatus(Effect::create({}), StatusCode::InvalidConfig, "loader");
 }

@@ -192,7 +192,16 @@ const std::vector<Mistake> kMistakes = {
      kSun,
      [](auto& rig) { forViews(rig, [](Mat4& m) { multiply(m, kBias); }); },
      Answer::Pixels,
-     {"lights[0].shadow"}},
+     {"lights[0].shadow", "it would agree if clipFromWorld is a matrix for texture coordinates"}},
+    {"a sun's shadow matrix for texture coordinates, of depth as it is",
+     kSun,
+     [](auto& rig) {
+       forViews(rig, [](Mat4& m) {
+         multiply(m, glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0.5, 0.5, 0)), glm::dvec3(0.5, 0.5, 1)));
+       });
+     },
+     Answer::Pixels,
+     {"lights[0].shadow", "it would agree if clipFromWorld is a matrix for texture coordinates"}},
     {"a sun's shadow matrix scaled to an atlas's tile",
      kSun,
      [](auto& rig) { forViews(rig, [](Mat4& m) { multiply(m, kTile); }); },

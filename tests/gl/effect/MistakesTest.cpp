@@ -1,6 +1,7 @@
 // Mistakes that integrators make: each is named by an error or a warning. And what is right is warned of nowhere.
 #include "Mistakes.h"
 #include "GlState.h"
+#include "MapLayoutRig.h"
 
 #include "gl/ReadBack.h"
 #include "reference/CameraRays.h"
@@ -208,6 +209,120 @@ TEST_CASE("warnings that are errors draw nothing, and end with what they are abo
     }
     CHECK(effect->render(right));
     CHECK(effect->statistics().warnings.empty());
+  }
+}
+
+TEST_CASE("mistakes in atlases and cube maps are called what they are") {
+  using Places = std::vector<ShadowView>;
+  glm::dvec3 target(0, 1.5, -4);
+  const auto linesOf = [&](LightKind kind, tests::Layout layout,
+                           const std::function<void(reference::ShadowImage&)>& drawn,
+                           const std::function<void(Light&)>& told) {
+    const auto rig = tests::layoutRig(kind, false, 96);
+    frameOf(*rig).settings.technique = Technique::Epipolar;
+    rig->look(tests::lookAt({0, 2, 0}, target));
+    reference::ShadowImage image = rig->scene.shadow(0);
+    drawn(image);
+    const tests::LaidMaps maps(image, layout, 1, GL_DEPTH_COMPONENT32F);
+    maps.enter(lightOf(*rig));
+    told(lightOf(*rig));
+    const auto effect = checkingEffect();
+    const Outcome outcome = render(*effect, frameOf(*rig));
+    CHECK(outcome.status);
+    return joined(outcome.warnings);
+  };
+  const auto asIs = [](auto& /*unused*/) {};
+  const auto says = [](const std::string& lines, const std::string& words) {
+    INFO(lines);
+    CHECK(lines.find(words) != std::string::npos);
+  };
+  const auto ofTile = [](Light& light, const std::function<glm::dmat4(const Rectangle&, glm::dvec2)>& change) {
+    glm::ivec2 size;
+    gl().BindTexture(GL_TEXTURE_2D, light.shadow.texture);
+    gl().GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &size.x);
+    gl().GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &size.y);
+    for (ShadowView& view : light.shadow.views)
+      view.clipFromWorld = tests::toMat4(change(view.rectangle, size) * reference::toMat4(view.clipFromWorld));
+  };
+  using tests::Layout;
+  CHECK(linesOf(kSun, Layout::Atlas, asIs, asIs).empty());
+  CHECK(linesOf(kLamp, Layout::Cube, asIs, asIs).empty());
+  says(linesOf(kSun, Layout::Atlas, asIs,
+               [&](Light& light) {
+                 ofTile(light, [](const Rectangle& r, const glm::dvec2& size) {
+                   const glm::dvec3 scale(r.width / size.x, r.height / size.y, 1);
+                   const glm::dvec3 middle((2 * r.x + r.width) / size.x - 1, (2 * r.y + r.height) / size.y - 1, 0);
+                   return glm::scale(glm::translate(glm::dmat4(1), middle), scale);
+                 });
+               }),
+       "clipFromWorld is a matrix into the whole layer");
+  says(linesOf(kSun, Layout::Atlas, asIs,
+               [](Light& light) {
+                 GLint height = 0;
+                 gl().BindTexture(GL_TEXTURE_2D, light.shadow.texture);
+                 gl().GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &height);
+                 for (ShadowView& view : light.shadow.views)
+                   view.rectangle.y = height - view.rectangle.y - view.rectangle.height;
+               }),
+       "rectangle counts rows from the top");
+  says(linesOf(kSun, Layout::Atlas, asIs,
+               [](Light& light) {
+                 Places& views = light.shadow.views;
+                 std::swap(views[0].rectangle, views[1].rectangle);
+                 std::swap(views[1].rectangle, views[2].rectangle);
+               }),
+       "views are in another order than their layers or rectangles");
+  for (const std::size_t axis : {1, 2}) {
+    CAPTURE(axis);
+    says(linesOf(
+             kLamp, Layout::Cube,
+             [&](reference::ShadowImage& image) { // a face of the axis for the other
+               const auto face = static_cast<std::ptrdiff_t>(image.depth.size() / 6);
+               const auto first = image.depth.begin() + 2 * static_cast<std::ptrdiff_t>(axis) * face;
+               std::swap_ranges(first, first + face, first + face);
+             },
+             asIs),
+         "the cube's faces are in another order than GL's");
+  }
+  says(linesOf(
+           kLamp, Layout::Cube,
+           [](reference::ShadowImage& image) {
+             const auto face = static_cast<std::ptrdiff_t>(image.depth.size() / 6);
+             for (auto i = image.depth.begin(); i != image.depth.end(); i += face)
+               std::reverse(i, i + face);
+           },
+           asIs),
+       "the cube's faces are upside down");
+  says(linesOf(kLamp, Layout::Cube, asIs, [](Light& light) { light.shadow.cube.nearDistance *= 5; }),
+       "cube.nearDistance");
+  says(linesOf(kLamp, Layout::Cube, asIs,
+               [](Light& light) {
+                 light.shadow.encoding = DepthEncoding::Radial;
+                 light.shadow.scale.unit = 60;
+               }),
+       "encoding, scale");
+  for (const float cleared : {0.0F, 1.0F}) {
+    CAPTURE(cleared);
+    const std::string lines = linesOf(
+        kSun, Layout::Atlas,
+        [&](reference::ShadowImage& image) { std::fill(image.depth.begin(), image.depth.end(), cleared); }, asIs);
+    says(lines, cleared == 0 ? "of the map is at its near plane" : "where the map has none");
+    CHECK(lines.find("sky in the scene depth") == std::string::npos);
+  }
+}
+
+TEST_CASE("each of several cameras has the warnings of its own pictures") {
+  tests::ShaftRig right = rightRig(kSun);
+  Frame wrong = frameOf(right);
+  wrong.camera.viewFromWorld = tests::lookAt({0, 2, 0}, {1, 2, -1});
+  wrong.reuse.eye = 7;
+  const auto effect = checkingEffect();
+  for (int i = 0; i < 6; ++i) {
+    CHECK(effect->render(frameOf(right)));
+    CHECK(effect->statistics().warnings.empty());
+    CHECK(effect->render(wrong));
+    if (i > 3) CHECK_FALSE(effect->statistics().warnings.empty());
+    gl().Finish();
   }
 }
 

@@ -51,3 +51,10 @@ TEST_CASE("doubles are not rounded") {
   CHECK(mat4RowMajor(numbers.data())[5] == 1.0 / 3);
   CHECK(mat4(glm::dmat4(1.0 / 3))[5] == 1.0 / 3);
 }
+
+TEST_CASE("vectors of any kind that has x, y and z") {
+  const glm::vec3 v(1, -2, 0.5F);
+  CHECK(tyndall::vec3(v) == Vec3{1, -2, 0.5});
+  CHECK(tyndall::vec3(glm::dvec3(1.0 / 3, 0, 0))[0] == 1.0 / 3);
+  CHECK(tyndall::rgb(v) == Rgb{1, -2, 0.5F});
+}
