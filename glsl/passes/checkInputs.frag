@@ -3,7 +3,6 @@
 // for each light, R8, constants of lib/inputs.glsl over 255.
 #include "shared.glsl"
 #include "lib/camera.glsl"
-#include "lib/engineDepth.glsl"
 #include "lib/depthSamples.glsl"
 #include "lib/shadowMap.glsl"
 #include "lib/inputs.glsl"

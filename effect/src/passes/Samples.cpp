@@ -16,10 +16,10 @@ void planMean(LightPlanner& light, Pass pass, const DrawOptions& options) {
   camera.lightCeiling *= share;
   light.lightBlock = light.plan.add(lamp);
   DrawOptions adding = options;
-  adding.adds = true;
+  adding.blend = Blend::Add;
   for (camera.depthSample = 0; camera.depthSample < samples; ++camera.depthSample) {
     light.frameBlock = light.plan.add(camera);
-    light.draw(Pass::SampleDepth, {light.depthSource(), options.stencil});
+    light.draw(Pass::SampleDepth, {{}, options.stencil});
     light.board[Resource::SceneDepth] = light.board[Resource::SampleDepth];
     light.draw(pass, adding);
     adding.counting = {}; // of pixels, not of samples
@@ -27,6 +27,26 @@ void planMean(LightPlanner& light, Pass pass, const DrawOptions& options) {
   light.frameBlock = frameBlock;
   light.lightBlock = lightBlock;
   light.board[Resource::SceneDepth] = depth;
+}
+
+// What is left of a pixel at an edge comes to one ray, whose light counts by its share.
+void planRest(LightPlanner& light, Pass pass, DrawOptions options) {
+  const int frameBlock = light.frameBlock;
+  const Board board = light.board;
+  const Destination destination = light.destination;
+  auto camera = light.plan.block<blocks::FrameBlock>(light.frameBlock);
+  camera.isMultisampled = camera.depthSampleShift = 0;
+  camera.depthSampleCount = 1;
+  light.frameBlock = light.plan.add(camera);
+  light.board[Resource::SceneDepth] = light.board[Resource::SceneDepthSideBySide] = light.board[Resource::EdgeRest];
+  light.board[Resource::SceneDepthSamples] = 0;
+  light.destination = {};
+  light.destination.inscatter = light.board[Resource::EdgeInscatter];
+  options.blend = Blend::AddByAlpha;
+  light.draw(pass, options);
+  light.frameBlock = frameBlock;
+  light.board = board;
+  light.destination = destination;
 }
 
 } // namespace
@@ -38,6 +58,28 @@ void drawLight(LightPlanner& light, Pass pass, const DrawOptions& options) {
   on.stencil = onEdges(options.stencil);
   light.drawLight(pass, off);
   planMean(light, pass, on);
+}
+
+void unwarpEdges(LightPlanner& light) {
+  light.draw(Pass::UnwarpEdges, {{}, onEdges({})});
+  DrawOptions marking{{}, onEdges(kMarkServed)};
+  marking.blend = Blend::Add;
+  light.draw(Pass::ServedEdges, marking);
+}
+
+void fixUp(LightPlanner& light, Pass pass, const DrawOptions& options) {
+  if (!light.extent.sampledDepth) return light.drawLight(pass, options);
+  DrawOptions off = options, on = options;
+  off.stencil = offEdges(options.stencil);
+  on.stencil = onEdges(options.stencil);
+  light.drawLight(pass, off);
+  planRest(light, pass, on);
+}
+
+void addEdges(LightPlanner& light) {
+  light.selectDraw(0);
+  const bool direct = light.firstLight && light.destination.direct();
+  light.draw(direct ? Pass::EdgeComposite : Pass::EdgeLight, {{}, onEdges({})});
 }
 
 } // namespace tyndall::passes::samples

@@ -23,6 +23,7 @@ namespace tyndall {
 enum class Blend {
   Replace,    ///< overwrite
   Add,        ///< target + source 0 (rgb); alpha stays
+  AddByAlpha, ///< target + source 0 times the target's alpha (rgb); alpha stays
   AddAll,     ///< target + source 0, alpha too
   DualSource, ///< target * source 1 + source 0 (rgb); alpha stays
   Colour,     ///< overwrite rgb; alpha stays

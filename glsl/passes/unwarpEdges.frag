@@ -1,0 +1,119 @@
+// Unwarp edges: as unwarp.frag, of the pixels whose samples show several surfaces; each sample takes from the slices what agrees with its
+// own distance: of the nearest four samples or, as both sides of an edge are near, of those around them. Reads the slice table,
+// epipolarInscatter and the depth of all samples. Writes edgeInscatter, image size, RGBA32F, the light of the samples that are served as
+// a part of the pixel's, and in alpha the share of the others; edgeTransmittance, the same, the mean; edgeRest, RG32F: where the ray ends
+// that stands for the others, as a depth, and 0, or 1 if there are none.
+#include "shared.glsl"
+#include "lib/camera.glsl"
+#include "lib/phase.glsl"
+#include "lib/depthSamples.glsl"
+#include "lib/slices.glsl"
+#define Light vec3
+#include "lib/stored.glsl"
+#include "lib/fromStored.glsl"
+#include "lib/unwarp.glsl"
+
+uniform sampler2D epipolarInscatter;
+layout(location = 0) out vec4 outInscatter;
+layout(location = 1) out vec4 outTransmittance;
+layout(location = 2) out vec4 outRest;
+
+// Two samples each of two slices: what they hold, and how much each counts by its place.
+struct Four {
+  mat4 texels;
+  vec4 coordinates, weights;
+};
+
+// The tent over `reach` slices, or samples, to each side.
+float tent(float distance, float reach) { return max(reach - abs(distance), 0.0) / (reach * reach); }
+
+void takeTwo(int slice, float weight, vec2 p, int beyond, float reach, out vec4 low, out vec4 high, out vec2 weights) {
+  vec4 line = texelFetch(sliceTable, ivec2(slice, 1), 0);
+  float y = dot(p, line.xy) + line.z, past = max(max(-y, y - line.w), 0.0), last = line.w;
+  bool reaches = past * past <= dot(line.xy, line.xy); // to the pixel, or nearly
+  y = clamp(y, 0.0, last);
+  float first = max(min(floor(y), last - 1.0), 0.0) + float(beyond);
+  vec2 index = vec2(first, first + 1.0);
+  low = texelFetch(epipolarInscatter, ivec2(slice, int(clamp(index.x, 0.0, last))), 0);
+  high = texelFetch(epipolarInscatter, ivec2(slice, int(clamp(index.y, 0.0, last))), 0);
+  weights.x = reaches && index.x >= 0.0 ? weight * tent(y - index.x, reach) : 0.0;
+  weights.y = reaches && index.y <= last ? weight * tent(y - index.y, reach) : 0.0;
+}
+
+// Those around the pixel, or so many slices and samples further.
+Four takeFour(vec2 p, float place, ivec2 beyond, float reach) {
+  Four four;
+  float low = floor(place) + float(beyond.x);
+  ivec2 slices = neighbourSlices(place + float(beyond.x));
+  takeTwo(slices.x, tent(place - low, reach), p, beyond.y, reach, four.texels[0], four.texels[1], four.weights.xy);
+  takeTwo(slices.y, tent(place - low - 1.0, reach), p, beyond.y, reach, four.texels[2], four.texels[3], four.weights.zw);
+  four.coordinates = vec4(storedCoordinate(four.texels[0]), storedCoordinate(four.texels[1]), storedCoordinate(four.texels[2]),
+                          storedCoordinate(four.texels[3]));
+  return four;
+}
+
+// Light of the ray up to an end, as unwarp.frag has it; of the nearest four also where they lead to the end.
+vec4 lightTo(float coordinate, Four four, bool nearest) {
+  vec4 agreement = min(vec4(1.0), endThreshold / max(abs(four.coordinates - coordinate), vec4(1e-20)));
+  agreement *= agreement;
+  vec4 agreeing = four.weights * agreement * agreement;
+  vec4 sum = vec4((four.texels * agreeing).rgb, dot(agreeing, vec4(1.0)));
+  if (!nearest) return sum;
+  float plainWeight = dot(four.weights, vec4(1.0));
+  float apart = abs(dot(four.weights, four.coordinates - coordinate)), allowed = 0.125 * endThreshold * plainWeight;
+  return mix(sum, vec4((four.texels * four.weights).rgb, plainWeight), clamp(2.0 - apart / max(allowed, 1e-20), 0.0, 1.0));
+}
+
+// The nearest four samples, then the fours that have one of them in a corner.
+const int kFours = 5;
+ivec2 beyondOf(int four) { return four == 0 ? ivec2(0) : ivec2(four & 1, four >> 1 & 1) * 2 - 1; }
+
+// Where the ray ends for the samples of a mask: for the one nearest to their mean.
+float restOf(int samples) {
+  float sum = 0.0, count = 0.0, best = 3e38, depth = 0.0;
+  for (int k = 0; k < depthSampleCount; ++k) {
+    if ((samples >> k & 1) == 0) continue;
+    sum += sampleEndAt(k);
+    count += 1.0;
+  }
+  for (int k = 0; k < depthSampleCount && count > 0.0; ++k) {
+    float off = abs(sampleEndAt(k) - sum / count);
+    if ((samples >> k & 1) == 0 || !(off < best)) continue;
+    best = off;
+    depth = sampleDepthAt(k);
+  }
+  return depth;
+}
+
+float countOf(int samples) {
+  float count = 0.0;
+  for (int k = 0; k < depthSampleCount; ++k) count += float(samples >> k & 1);
+  return count;
+}
+
+void main() {
+  vec2 position = unjittered(gl_FragCoord.xy);
+  float place = sliceCoordinate(position), share = 1.0 / float(depthSampleCount);
+  Ray ray = cameraRay(position);
+  int left = 0;
+  vec3 light = vec3(0.0), transmittance = vec3(0.0);
+  for (int k = 0; k < depthSampleCount; ++k) {
+    float end = sampleEndAt(k);
+    transmittance += transmittanceTo(end) * share;
+    left |= end > 0.0 ? 1 << k : 0; // the others have no light
+  }
+  bool near = isNearLight(position);
+  for (int i = 0; i < kFours && left != 0 && !near; ++i) {
+    Four four = takeFour(position, place, beyondOf(i), i == 0 ? 1.0 : 2.0);
+    for (int k = 0; k < depthSampleCount; ++k) {
+      vec4 own = lightTo(endCoordinate(ray, min(sampleEndAt(k), visibleEnd)), four, i == 0);
+      if ((left >> k & 1) == 0 || !isServed(own)) continue;
+      light += own.rgb / own.w;
+      left &= ~(1 << k);
+    }
+  }
+  float rest = countOf(left) * share;
+  outInscatter = vec4(rest < 1.0 ? radianceOf(vec4(light * share, 1.0 - rest), ray) * (1.0 - rest) : vec3(0.0), rest);
+  outTransmittance = vec4(transmittance, 1.0);
+  outRest = vec4(restOf(left), left == 0 ? 1.0 : 0.0, 0.0, 0.0);
+}
