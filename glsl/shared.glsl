@@ -7,6 +7,7 @@
 
 #define MAX_CONSTITUENTS 4
 #define MAX_SHADOW_VIEWS 6
+#define EDGE_RAYS 3 // that are marched for samples at an edge of a multisampled depth, at most
 #define EPIPOLE_GAP 0.25 // pixels between an epipole in the image and where slices begin
 #define CHECK_WIDTH 64 // points where scene depth and shadow maps are compared (Config::checkInputs), of a picture
 #define CHECK_HEIGHT 36
@@ -36,7 +37,7 @@ UNIFORM_BLOCK(FrameBlock) {
   vec3 depthAxis;                     // along which axial distance grows, unit
   float skyRounding;                  // share of its distance by which a value of the far plane may lie before it
   vec2 jitter;                        // by how many pixels the image has been moved: rays are those of the camera at rest
-  int depthSample;                    // of several a pixel, the one that is drawn; -1: none
+  int depthSample;                    // of several a pixel, or of EDGE_RAYS, the one that is drawn; -1: none
   int depthSampleShift;               // samples of a pixel, 2^s, that stand side by side where they are not in a multisampled texture
 };
 

@@ -1,8 +1,7 @@
 // Unwarp edges: as unwarp.frag, of the pixels whose samples show several surfaces; each sample takes from the slices what agrees with its
 // own distance: of the nearest four samples or, as both sides of an edge are near, of those around them. Reads the slice table,
 // epipolarInscatter and the depth of all samples. Writes edgeInscatter, image size, RGBA32F, the light of the samples that are served as
-// a part of the pixel's, and in alpha the share of the others; edgeTransmittance, the same, the mean; edgeRest, RG32F: where the ray ends
-// that stands for the others, as a depth, and 0, or 1 if there are none.
+// a part of the pixel's; edgeTransmittance, the same, the mean; edgeRest, RG32F: a mask of the others, and 0, or 1 if there are none.
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
@@ -68,39 +67,20 @@ vec4 lightTo(float coordinate, Four four, bool nearest) {
 const int kFours = 5;
 ivec2 beyondOf(int four) { return four == 0 ? ivec2(0) : ivec2(four & 1, four >> 1 & 1) * 2 - 1; }
 
-// Where the ray ends for the samples of a mask: for the one nearest to their mean.
-float restOf(int samples) {
-  float sum = 0.0, count = 0.0, best = 3e38, depth = 0.0;
-  for (int k = 0; k < depthSampleCount; ++k) {
-    if ((samples >> k & 1) == 0) continue;
-    sum += sampleEndAt(k);
-    count += 1.0;
-  }
-  for (int k = 0; k < depthSampleCount && count > 0.0; ++k) {
-    float off = abs(sampleEndAt(k) - sum / count);
-    if ((samples >> k & 1) == 0 || !(off < best)) continue;
-    best = off;
-    depth = sampleDepthAt(k);
-  }
-  return depth;
-}
-
-float countOf(int samples) {
-  float count = 0.0;
-  for (int k = 0; k < depthSampleCount; ++k) count += float(samples >> k & 1);
-  return count;
-}
-
 void main() {
   vec2 position = unjittered(gl_FragCoord.xy);
   float place = sliceCoordinate(position), share = 1.0 / float(depthSampleCount);
   Ray ray = cameraRay(position);
   int left = 0;
+  float served = 0.0;
   vec3 light = vec3(0.0), transmittance = vec3(0.0);
   for (int k = 0; k < depthSampleCount; ++k) {
     float end = sampleEndAt(k);
     transmittance += transmittanceTo(end) * share;
-    left |= end > 0.0 ? 1 << k : 0; // the others have no light
+    if (end > 0.0)
+      left |= 1 << k;
+    else // without light
+      served += share;
   }
   bool near = isNearLight(position);
   for (int i = 0; i < kFours && left != 0 && !near; ++i) {
@@ -110,10 +90,10 @@ void main() {
       if ((left >> k & 1) == 0 || !isServed(own)) continue;
       light += own.rgb / own.w;
       left &= ~(1 << k);
+      served += share;
     }
   }
-  float rest = countOf(left) * share;
-  outInscatter = vec4(rest < 1.0 ? radianceOf(vec4(light * share, 1.0 - rest), ray) * (1.0 - rest) : vec3(0.0), rest);
+  outInscatter = vec4(served > 0.0 ? radianceOf(vec4(light * share, served), ray) * served : vec3(0.0), 0.0);
   outTransmittance = vec4(transmittance, 1.0);
-  outRest = vec4(restOf(left), left == 0 ? 1.0 : 0.0, 0.0, 0.0);
+  outRest = vec4(float(left), left == 0 ? 1.0 : 0.0, 0.0, 0.0);
 }

@@ -1,5 +1,7 @@
 #include "passes/Samples.h"
 
+#include <algorithm>
+
 namespace tyndall::passes::samples {
 
 namespace {
@@ -19,7 +21,7 @@ void planMean(LightPlanner& light, Pass pass, const DrawOptions& options) {
   adding.blend = Blend::Add;
   for (camera.depthSample = 0; camera.depthSample < samples; ++camera.depthSample) {
     light.frameBlock = light.plan.add(camera);
-    light.draw(Pass::SampleDepth, {{}, options.stencil});
+    light.draw(Pass::SampleDepth, {light.samplesOfDepth(), options.stencil});
     light.board[Resource::SceneDepth] = light.board[Resource::SampleDepth];
     light.draw(pass, adding);
     adding.counting = {}; // of pixels, not of samples
@@ -29,24 +31,33 @@ void planMean(LightPlanner& light, Pass pass, const DrawOptions& options) {
   light.board[Resource::SceneDepth] = depth;
 }
 
-// What is left of a pixel at an edge comes to one ray, whose light counts by its share.
-void planRest(LightPlanner& light, Pass pass, DrawOptions options) {
+// What is left of pixels at edges comes to a few rays, whose light counts by their shares.
+void planRays(LightPlanner& light, Pass pass, DrawOptions options) {
   const int frameBlock = light.frameBlock;
   const Board board = light.board;
   const Destination destination = light.destination;
-  auto camera = light.plan.block<blocks::FrameBlock>(light.frameBlock);
-  camera.isMultisampled = camera.depthSampleShift = 0;
-  camera.depthSampleCount = 1;
-  light.frameBlock = light.plan.add(camera);
-  light.board[Resource::SceneDepth] = light.board[Resource::SceneDepthSideBySide] = light.board[Resource::EdgeRest];
-  light.board[Resource::SceneDepthSamples] = 0;
-  light.destination = {};
-  light.destination.inscatter = light.board[Resource::EdgeInscatter];
+  auto sampled = light.plan.block<blocks::FrameBlock>(frameBlock), marched = sampled;
+  marched.isMultisampled = marched.depthSampleShift = 0;
+  marched.depthSampleCount = 1;
+  DrawOptions ray{{}, options.stencil};
+  ray.blend = Blend::Alpha;
   options.blend = Blend::AddByAlpha;
-  light.draw(pass, options);
+  for (sampled.depthSample = 0; sampled.depthSample < std::min(EDGE_RAYS, sampled.depthSampleCount);
+       ++sampled.depthSample) {
+    light.board = board;
+    light.frameBlock = light.plan.add(sampled);
+    light.draw(Pass::EdgeRay, ray);
+    light.frameBlock = light.plan.add(marched);
+    light.board[Resource::SceneDepth] = light.board[Resource::SceneDepthSideBySide] = light.board[Resource::SampleDepth];
+    light.board[Resource::SceneDepthSamples] = 0;
+    light.destination = {};
+    light.destination.inscatter = light.board[Resource::EdgeInscatter];
+    light.draw(pass, options);
+    light.destination = destination;
+    options.counting = {}; // of pixels, not of rays
+  }
   light.frameBlock = frameBlock;
   light.board = board;
-  light.destination = destination;
 }
 
 } // namespace
@@ -61,7 +72,7 @@ void drawLight(LightPlanner& light, Pass pass, const DrawOptions& options) {
 }
 
 void unwarpEdges(LightPlanner& light) {
-  light.draw(Pass::UnwarpEdges, {{}, onEdges({})});
+  light.draw(Pass::UnwarpEdges, {light.samplesOfDepth(), onEdges({})});
   DrawOptions marking{{}, onEdges(kMarkServed)};
   marking.blend = Blend::Add;
   light.draw(Pass::ServedEdges, marking);
@@ -73,7 +84,7 @@ void fixUp(LightPlanner& light, Pass pass, const DrawOptions& options) {
   off.stencil = offEdges(options.stencil);
   on.stencil = onEdges(options.stencil);
   light.drawLight(pass, off);
-  planRest(light, pass, on);
+  planRays(light, pass, on);
 }
 
 void addEdges(LightPlanner& light) {

@@ -27,6 +27,7 @@ enum class Blend {
   AddAll,     ///< target + source 0, alpha too
   DualSource, ///< target * source 1 + source 0 (rgb); alpha stays
   Colour,     ///< overwrite rgb; alpha stays
+  Alpha,      ///< overwrite alpha; rgb stays. Of the first output; others are overwritten
 };
 
 /// A pixel's bits in the stencil buffer: what it lets a draw into, and what the draw leaves there. Off without either.

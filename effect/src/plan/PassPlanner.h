@@ -72,6 +72,8 @@ public:
   std::uint64_t pixels() const {
     return static_cast<std::uint64_t>(extent.width) * static_cast<std::uint64_t>(extent.height);
   }
+  /// How depthSamples.glsl finds samples.
+  gl::Definitions samplesOfDepth() const { return {{"SIDE_BY_SIDE", extent.sampleShift > 0 ? 1 : 0}}; }
   void skip(const std::string& pass, const std::string& why) { plan.skip(titleOf(pass), why); }
 
   Allocator& allocator;

@@ -10,8 +10,8 @@ using R = Resource;
 using O = const Occurrence&;
 
 const Option kHashes{"ROW_HASHES", {kUndefined, 1}}, kTintSums{"TINT_SUMS", {kUndefined, 1}},
-    kStripsOfRows{"STRIPS_OF_ROWS", {1}};
-const Read kSideBySide{R::SceneDepthSideBySide, "sceneDepth"};
+    kStripsOfRows{"STRIPS_OF_ROWS", {1}}, kSideBySide{"SIDE_BY_SIDE", {0, 1}};
+const Read kDepthSideBySide{R::SceneDepthSideBySide, "sceneDepth"};
 
 bool blendsTwoSources(O o) { return o.light.dualSource; }
 bool copiesColour(O o) { return !o.light.dualSource; }
@@ -108,12 +108,12 @@ std::vector<PassRow> makeRows() {
           .options({{"DEPTH_SOURCE", {0, 1, 2, 3}}})
           .sameForAllLights(),
       Row(Pass::Exact, "exact", "passes/exact.frag", S::Image)
-          .readsIfThere({kSideBySide, R::SceneDepthSamples}) // one of the two
+          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples}) // one of the two
           .walksTexels()
           .into(Into::Destination)
           .joins(kSumOfLights),
       Row(Pass::Transmittance, "transmittance", "passes/transmittance.frag", S::Image)
-          .readsIfThere({kSideBySide, R::SceneDepthSamples}) // one of the two
+          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples}) // one of the two
           .into(Into::Destination)
           .joins(kSumOfLights),
       Row(Pass::Composite, "composite", "passes/composite.frag")
@@ -146,12 +146,14 @@ std::vector<PassRow> makeRows() {
           .when(isSampled)
           .sameForAllLights(),
       Row(Pass::OneDepth, "one depth", "passes/oneDepth.frag")
-          .readsIfThere({kSideBySide, R::SceneDepthSamples})
+          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples})
           .writes({R::OneDepth})
+          .options({kSideBySide})
           .sameForAllLights(),
       Row(Pass::SampleDepth, "sample depth", "passes/oneDepth.frag")
-          .readsIfThere({kSideBySide, R::SceneDepthSamples})
+          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples})
           .writes({R::SampleDepth})
+          .options({kSideBySide})
           .sameForAllLights(),
       Row(Pass::Edges, "edges", "passes/edges.frag", S::Image)
           .reads({R::SceneDepth})
@@ -279,13 +281,18 @@ std::vector<PassRow> makeRows() {
           .when(isUnwarped),
       Row(Pass::UnwarpEdges, "unwarp", "passes/unwarpEdges.frag", S::Image)
           .reads({R::SliceTable, R::EpipolarInscatter})
-          .readsIfThere({kSideBySide, R::SceneDepthSamples})
-          .writes({R::EdgeInscatter, R::EdgeTransmittance, R::EdgeRest}),
+          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples})
+          .writes({R::EdgeInscatter, R::EdgeTransmittance, R::EdgeRest})
+          .options({kSideBySide}),
       Row(Pass::ServedEdges, "edges", "passes/edges.frag", S::Image)
           .reads({{R::EdgeRest, "sceneDepth"}})
           .into(Into::Destination)
           .joins(kSumOfLights)
           .sameForAllLights(),
+      Row(Pass::EdgeRay, "edge ray", "passes/edgeRay.frag", S::Image)
+          .reads({R::EdgeRest})
+          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples})
+          .writes({R::EdgeInscatter, R::SampleDepth}),
       Row(Pass::EdgeLight, "edges", "passes/edgeLight.frag", S::Image)
           .reads({R::EdgeInscatter, R::EdgeTransmittance})
           .into(Into::Destination)
@@ -308,7 +315,7 @@ std::vector<PassRow> makeRows() {
           .into(Into::Destination)
           .joins(kSumOfLights),
       Row(Pass::FixupAllTexels, "fix-up", "passes/exact.frag", S::Image)
-          .readsIfThere({kSideBySide, R::SceneDepthSamples}) // one of the two
+          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples}) // one of the two
           .walksTexels()
           .into(Into::Destination)
           .joins(kSumOfLights),
@@ -367,7 +374,7 @@ std::vector<PassRow> makeRows() {
           .sameForAllLights(),
       Row(Pass::CheckInputs, "check", "passes/checkInputs.frag")
           .reads({R::ShadowMap})
-          .readsIfThere({kSideBySide, R::SceneDepthSamples})
+          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples})
           .writes({R::InputChecks})
           .when(hasRows),
       Row(Pass::DebugSlices, "debug view", "passes/debugSlices.frag")
@@ -413,7 +420,7 @@ std::vector<PassRow> makeRows() {
           .joins(Joining::OverwriteRgb)
           .sameForAllLights(),
       Row(Pass::DebugInputs, "debug view", "passes/debugInputs.frag")
-          .readsIfThere({kSideBySide, R::SceneDepthSamples, R::ShadowMap})
+          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples, R::ShadowMap})
           .into(Into::Colour)
           .joins(Joining::OverwriteRgb),
   };

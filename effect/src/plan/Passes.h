@@ -48,6 +48,7 @@ enum class Pass {
   Unwarp,
   UnwarpEdges,
   ServedEdges,
+  EdgeRay,
   EdgeLight,
   EdgeComposite,
   Unserved,

@@ -167,7 +167,7 @@ void FramePlanner::planDepth() {
   Board& board = passes_.board;
   board[Resource::SceneDepth] = board[Resource::SceneDepthSideBySide];
   if (!frame_.depth.multisampled || !usesSlices(frame_)) return;
-  passes_.draw(Pass::OneDepth);
+  passes_.draw(Pass::OneDepth, {passes_.samplesOfDepth()});
   board[Resource::SceneDepth] = board[Resource::OneDepth];
   DrawOptions marking{{}, kMarkEdges};
   marking.blend = Blend::Add;

@@ -109,7 +109,7 @@ constexpr ResourceRow kRows[] = {
      "the same: what unwarp makes of those"},
     {"edge transmittance", kRgba32, kRgba32, always, always, image, image, Lifetime::Frame, "the same"},
     {"edge rest", kRg32, kRg32, always, always, image, image, Lifetime::Frame,
-     "the same: where the rays end that are marched for them"},
+     "the same: samples that no slice serves"},
     {"shadow copy", kR32, kR32, always, always, mapCopy, mapCopy, Lifetime::Light,
      "shadow maps that are cubes, hold other than window depth, or are seldom so: a layer for each view"},
     {"glass colour copy", kRgba32, kRgba8, floatTint, glass, mapCopy, mapCopy, Lifetime::Light, "the same of glass"},

@@ -28,7 +28,7 @@ enum class Resource {
   SampleDepth, // likewise, for a while
   EdgeInscatter,
   EdgeTransmittance,
-  EdgeRest, // likewise
+  EdgeRest,
   ShadowCopy,
   GlassColourCopy,
   GlassDepthCopy,
