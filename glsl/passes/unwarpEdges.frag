@@ -63,34 +63,35 @@ vec4 lightTo(float coordinate, Four four, bool nearest) {
   return mix(sum, vec4((four.texels * four.weights).rgb, plainWeight), clamp(2.0 - apart / max(allowed, 1e-20), 0.0, 1.0));
 }
 
-// The nearest four samples, then the fours that have one of them in a corner.
-const int kFours = 5;
-ivec2 beyondOf(int four) { return four == 0 ? ivec2(0) : ivec2(four & 1, four >> 1 & 1) * 2 - 1; }
+// The fours that have one of the nearest in a corner.
+ivec2 beyondOf(int four) { return ivec2(four & 1, four >> 1) * 2 - 1; }
 
 void main() {
   vec2 position = unjittered(gl_FragCoord.xy);
-  float place = sliceCoordinate(position), share = 1.0 / float(depthSampleCount);
+  float place = sliceCoordinate(position), share = 1.0 / float(depthSampleCount), served = 0.0;
   Ray ray = cameraRay(position);
+  Four nearest = takeFour(position, place, ivec2(0), 1.0);
+  bool near = isNearLight(position);
   int left = 0;
-  float served = 0.0;
   vec3 light = vec3(0.0), transmittance = vec3(0.0);
   for (int k = 0; k < depthSampleCount; ++k) {
     float end = sampleEndAt(k);
+    vec4 own = lightTo(endCoordinate(ray, min(end, visibleEnd)), nearest, true);
+    bool isDark = end <= 0.0, isDone = isDark || (isServed(own) && !near);
     transmittance += transmittanceTo(end) * share;
-    if (end > 0.0)
-      left |= 1 << k;
-    else // without light
-      served += share;
+    light += isDone && !isDark ? own.rgb / own.w : vec3(0.0);
+    served += isDone ? share : 0.0;
+    left |= isDone ? 0 : 1 << k;
   }
-  bool near = isNearLight(position);
-  for (int i = 0; i < kFours && left != 0 && !near; ++i) {
-    Four four = takeFour(position, place, beyondOf(i), i == 0 ? 1.0 : 2.0);
+  for (int i = 0; i < 4 && left != 0 && !near; ++i) {
+    Four four = takeFour(position, place, beyondOf(i), 2.0);
     for (int k = 0; k < depthSampleCount; ++k) {
-      vec4 own = lightTo(endCoordinate(ray, min(sampleEndAt(k), visibleEnd)), four, i == 0);
-      if ((left >> k & 1) == 0 || !isServed(own)) continue;
+      if ((left >> k & 1) == 0) continue;
+      vec4 own = lightTo(endCoordinate(ray, min(sampleEndAt(k), visibleEnd)), four, false);
+      if (!isServed(own)) continue;
       light += own.rgb / own.w;
-      left &= ~(1 << k);
       served += share;
+      left &= ~(1 << k);
     }
   }
   outInscatter = vec4(served > 0.0 ? radianceOf(vec4(light * share, served), ray) * served : vec3(0.0), 0.0);

@@ -48,7 +48,8 @@ void planRays(LightPlanner& light, Pass pass, DrawOptions options) {
     light.frameBlock = light.plan.add(sampled);
     light.draw(Pass::EdgeRay, ray);
     light.frameBlock = light.plan.add(marched);
-    light.board[Resource::SceneDepth] = light.board[Resource::SceneDepthSideBySide] = light.board[Resource::SampleDepth];
+    light.board[Resource::SceneDepth] = light.board[Resource::SceneDepthSideBySide] =
+        light.board[Resource::SampleDepth];
     light.board[Resource::SceneDepthSamples] = 0;
     light.destination = {};
     light.destination.inscatter = light.board[Resource::EdgeInscatter];

@@ -192,9 +192,7 @@ Blend PassPlanner::blendOf(Joining joining) const {
   case Joining::SumOfDraws:
     return drawIndex == 0 ? Blend::Replace : Blend::AddAll;
   case Joining::SumOfLights:
-    return !firstLight || drawIndex > 0 ? Blend::Add
-           : destination.direct()               ? Blend::DualSource
-                                                : Blend::Replace;
+    return !firstLight || drawIndex > 0 ? Blend::Add : destination.direct() ? Blend::DualSource : Blend::Replace;
   case Joining::AddAll:
     return Blend::AddAll;
   case Joining::BlendIntoColour:

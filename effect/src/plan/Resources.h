@@ -13,9 +13,9 @@ namespace tyndall {
 enum class Resource {
   // Given: the engine's, or what a pass is told to read.
   SceneDepth,
-  SceneDepthSamples, // of all samples, in a multisampled texture,
+  SceneDepthSamples,    // of all samples, in a multisampled texture,
   SceneDepthSideBySide, // or as texels side by side
-  EngineDepth, // whatever plain depth is made of
+  EngineDepth,          // whatever plain depth is made of
   ShadowMap,
   GlassColour,
   GlassDepth,
@@ -24,7 +24,7 @@ enum class Resource {
   // The effect's own.
   Empty,
   PlainDepth,  // as SceneDepthSideBySide
-  OneDepth, // as SceneDepth
+  OneDepth,    // as SceneDepth
   SampleDepth, // likewise, for a while
   EdgeInscatter,
   EdgeTransmittance,
