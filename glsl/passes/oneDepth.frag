@@ -4,7 +4,7 @@
 #include "lib/camera.glsl"
 #include "lib/depthSamples.glsl"
 
-const float kOneSurface = 1.02; // of the ends of a pixel's rays: between them light hardly bends
+const float kOneSurface = 1.01; // of the ends of a pixel's rays: between them light hardly bends
 
 layout(location = 0) out vec4 outDepth;
 

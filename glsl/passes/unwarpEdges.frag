@@ -52,20 +52,23 @@ Four takeFour(vec2 p, float place, ivec2 beyond, float reach) {
 }
 
 // Light of the ray up to an end, as unwarp.frag has it; of the nearest four also where they lead to the end.
-vec4 lightTo(float coordinate, Four four, bool nearest) {
-  vec4 agreement = min(vec4(1.0), endThreshold / max(abs(four.coordinates - coordinate), vec4(1e-20)));
+vec4 lightTo(float coordinate, Four four, float allowed, bool nearest) {
+  vec4 agreement = min(vec4(1.0), allowed / max(abs(four.coordinates - coordinate), vec4(1e-20)));
   agreement *= agreement;
   vec4 agreeing = four.weights * agreement * agreement;
   vec4 sum = vec4((four.texels * agreeing).rgb, dot(agreeing, vec4(1.0)));
   if (!nearest) return sum;
   float plainWeight = dot(four.weights, vec4(1.0));
-  float apart = abs(dot(four.weights, four.coordinates - coordinate)), allowed = 0.125 * endThreshold * plainWeight;
-  return mix(sum, vec4((four.texels * four.weights).rgb, plainWeight), clamp(2.0 - apart / max(allowed, 1e-20), 0.0, 1.0));
+  float apart = abs(dot(four.weights, four.coordinates - coordinate));
+  float oneSurface = clamp(2.0 - apart / max(allowed * plainWeight, 1e-20), 0.0, 1.0);
+  return mix(sum, vec4((four.texels * four.weights).rgb, plainWeight), oneSurface);
 }
 
 // The fours that have one of the nearest in a corner.
 ivec2 beyondOf(int four) { return ivec2(four & 1, four >> 1) * 2 - 1; }
 
+const float kNear = 0.125, kFar = 1.0;
+const int kFours = 8;
 void main() {
   vec2 position = unjittered(gl_FragCoord.xy);
   float place = sliceCoordinate(position), share = 1.0 / float(depthSampleCount), served = 0.0;
@@ -76,18 +79,19 @@ void main() {
   vec3 light = vec3(0.0), transmittance = vec3(0.0);
   for (int k = 0; k < depthSampleCount; ++k) {
     float end = sampleEndAt(k);
-    vec4 own = lightTo(endCoordinate(ray, min(end, visibleEnd)), nearest, true);
+    vec4 own = lightTo(endCoordinate(ray, min(end, visibleEnd)), nearest, kNear * endThreshold, true);
     bool isDark = end <= 0.0, isDone = isDark || (isServed(own) && !near);
     transmittance += transmittanceTo(end) * share;
     light += isDone && !isDark ? own.rgb / own.w : vec3(0.0);
     served += isDone ? share : 0.0;
     left |= isDone ? 0 : 1 << k;
   }
-  for (int i = 0; i < 4 && left != 0 && !near; ++i) {
-    Four four = takeFour(position, place, beyondOf(i), 2.0);
+  for (int i = 0; i < kFours && left != 0 && !near; ++i) {
+    Four four = takeFour(position, place, beyondOf(i & 3), 2.0);
+    float allowed = (i < 4 ? kNear : kFar) * endThreshold;
     for (int k = 0; k < depthSampleCount; ++k) {
       if ((left >> k & 1) == 0) continue;
-      vec4 own = lightTo(endCoordinate(ray, min(sampleEndAt(k), visibleEnd)), four, false);
+      vec4 own = lightTo(endCoordinate(ray, min(sampleEndAt(k), visibleEnd)), four, allowed, false);
       if (!isServed(own)) continue;
       light += own.rgb / own.w;
       served += share;
