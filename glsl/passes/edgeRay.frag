@@ -16,7 +16,8 @@ void main() {
   Ray ray = cameraRay(unjittered(gl_FragCoord.xy));
   int left = int(texelFetch(edgeRest, ivec2(gl_FragCoord.xy), 0).r);
   float count = 0.0, sum = 0.0;
-  for (int i = 0; i <= depthSample; ++i) {
+  int i = 0;
+  for (; i <= depthSample && left != 0; ++i) {
     float nearest = 3e38;
     for (int k = 0; k < depthSampleCount; ++k)
       if ((left >> k & 1) != 0) nearest = min(nearest, endCoordinate(ray, sampleEndAt(k)));
@@ -30,6 +31,7 @@ void main() {
       left &= ~(1 << k);
     }
   }
+  if (i <= depthSample) count = 0.0; // none is left for this ray
   outShare = vec4(0.0, 0.0, 0.0, count / float(depthSampleCount));
   outDepth = vec4(count > 0.0 ? sum / count : depthScale * 1e30, 0.0, 0.0, 0.0); // the mean, as of plane surfaces; or at the eye
 }

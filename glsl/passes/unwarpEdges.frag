@@ -51,54 +51,71 @@ Four takeFour(vec2 p, float place, ivec2 beyond, float reach) {
   return four;
 }
 
-// Light of the ray up to an end, as unwarp.frag has it; of the nearest four also where they lead to the end.
-vec4 lightTo(float coordinate, Four four, float allowed, bool nearest) {
-  vec4 agreement = min(vec4(1.0), allowed / max(abs(four.coordinates - coordinate), vec4(1e-20)));
-  agreement *= agreement;
-  vec4 agreeing = four.weights * agreement * agreement;
-  vec4 sum = vec4((four.texels * agreeing).rgb, dot(agreeing, vec4(1.0)));
-  if (!nearest) return sum;
-  float plainWeight = dot(four.weights, vec4(1.0));
-  float apart = abs(dot(four.weights, four.coordinates - coordinate));
-  float oneSurface = clamp(2.0 - apart / max(allowed * plainWeight, 1e-20), 0.0, 1.0);
-  return mix(sum, vec4((four.texels * four.weights).rgb, plainWeight), oneSurface);
+vec4 power4(vec4 x) { return x * x * x * x; }
+
+// By how far four samples' ends are from a sample's of the pixel: those that end nearest count for most, as at an edge that is no break
+// light may differ, too.
+vec4 agreementOf(Four four, float coordinate, float allowed) {
+  return four.weights * power4(min(vec4(1.0), allowed / max(abs(four.coordinates - coordinate), vec4(1e-20))));
 }
 
-// The fours that have one of the nearest in a corner.
-ivec2 beyondOf(int four) { return ivec2(four & 1, four >> 1) * 2 - 1; }
+vec4 weigh(Four four, vec4 weights) { return vec4((four.texels * weights).rgb, dot(weights, vec4(1.0))); }
 
-const float kNear = 0.125, kFar = 1.0;
-const int kFours = 8;
+// Light of the ray up to an end, from the nearest four: those that agree or, where they lead to the end, all.
+vec4 nearestLight(Four four, float coordinate) {
+  float weight = dot(four.weights, vec4(1.0)), allowed = 0.125 * endThreshold;
+  float apart = abs(dot(four.weights, four.coordinates - coordinate));
+  float oneSurface = clamp(2.0 - apart / max(allowed * weight, 1e-20), 0.0, 1.0);
+  return weigh(four, mix(agreementOf(four, coordinate, allowed), four.weights, oneSurface));
+}
+
+// The same from all fours that have one of the nearest in a corner; nothing if none agrees as well as unwarp.frag asks for.
+vec4 lightAround(vec2 position, float place, float coordinate) {
+  vec4 sum = vec4(0.0);
+  float weight = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    Four four = takeFour(position, place, ivec2(i & 1, i >> 1) * 2 - 1, 2.0);
+    sum += weigh(four, agreementOf(four, coordinate, 0.125 * endThreshold));
+    weight += dot(agreementOf(four, coordinate, endThreshold), vec4(1.0));
+  }
+  return weight >= leastWeight && sum.w > 0.0 ? sum / sum.w : vec4(0.0);
+}
+
+int lowestOf(int samples) { return int(log2(float(samples & -samples)) + 0.5); }
+
 void main() {
   vec2 position = unjittered(gl_FragCoord.xy);
   float place = sliceCoordinate(position), share = 1.0 / float(depthSampleCount), served = 0.0;
   Ray ray = cameraRay(position);
   Four nearest = takeFour(position, place, ivec2(0), 1.0);
-  bool near = isNearLight(position);
-  int left = 0;
+  int left = 0, rest = 0;
   vec3 light = vec3(0.0), transmittance = vec3(0.0);
   for (int k = 0; k < depthSampleCount; ++k) {
     float end = sampleEndAt(k);
-    vec4 own = lightTo(endCoordinate(ray, min(end, visibleEnd)), nearest, kNear * endThreshold, true);
-    bool isDark = end <= 0.0, isDone = isDark || (isServed(own) && !near);
+    vec4 own = nearestLight(nearest, endCoordinate(ray, min(end, visibleEnd)));
+    bool isDark = end <= 0.0, isDone = isDark || isServed(own);
     transmittance += transmittanceTo(end) * share;
     light += isDone && !isDark ? own.rgb / own.w : vec3(0.0);
     served += isDone ? share : 0.0;
     left |= isDone ? 0 : 1 << k;
+    rest |= isDark ? 0 : 1 << k;
   }
-  for (int i = 0; i < kFours && left != 0 && !near; ++i) {
-    Four four = takeFour(position, place, beyondOf(i & 3), 2.0);
-    float allowed = (i < 4 ? kNear : kFar) * endThreshold;
-    for (int k = 0; k < depthSampleCount; ++k) {
-      if ((left >> k & 1) == 0) continue;
-      vec4 own = lightTo(endCoordinate(ray, min(sampleEndAt(k), visibleEnd)), four, allowed, false);
-      if (!isServed(own)) continue;
-      light += own.rgb / own.w;
-      served += share;
-      left &= ~(1 << k);
-    }
+  if (isNearLight(position)) {
+    light = vec3(0.0);
+    served = 0.0;
+    left = 0;
+  } else {
+    rest = 0;
+  }
+  while (left != 0) {
+    int sampleLeft = lowestOf(left);
+    vec4 own = lightAround(position, place, endCoordinate(ray, min(sampleEndAt(sampleLeft), visibleEnd)));
+    light += own.rgb;
+    served += own.w * share;
+    rest |= own.w > 0.0 ? 0 : 1 << sampleLeft;
+    left &= left - 1;
   }
   outInscatter = vec4(served > 0.0 ? radianceOf(vec4(light * share, served), ray) * served : vec3(0.0), 0.0);
   outTransmittance = vec4(transmittance, 1.0);
-  outRest = vec4(float(left), left == 0 ? 1.0 : 0.0, 0.0, 0.0);
+  outRest = vec4(float(rest), rest == 0 ? 1.0 : 0.0, 0.0, 0.0);
 }
