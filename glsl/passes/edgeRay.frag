@@ -1,30 +1,34 @@
 // Edge ray: one that is marched for some of the samples that slices do not serve at an edge of a multisampled depth: the first for those
 // that end nearest, the next for the nearest of the others, the last for all others. Reads edgeRest and the depth of all samples. Writes
-// edgeInscatter, of which only alpha is written: their share of the pixel; edgeDepth, image size, R32F: where the ray ends.
+// edgeInscatter, of which only alpha is written: their share of the pixel; sampleDepth, image size, R32F: where the ray ends.
 #include "shared.glsl"
 #include "lib/camera.glsl"
-#include "lib/phase.glsl"
 #include "lib/depthSamples.glsl"
-#define Light vec3
-#include "lib/stored.glsl"
 
 uniform sampler2D edgeRest;
 layout(location = 0) out vec4 outShare;
 layout(location = 1) out vec4 outDepth;
 
-void main() {
+// endCoordinate of lib/stored.glsl, as of a lamp: a sun's position is no light's, and only has samples told apart that need not be.
+float coordinateOf(int k) {
   Ray ray = cameraRay(unjittered(gl_FragCoord.xy));
+  vec3 toLight = lightPosition - ray.origin;
+  float end = sampleEndAt(k);
+  return log2(max(end, 1e-30)) + atan(end - dot(toLight, ray.direction), max(length(cross(toLight, ray.direction)), 1e-30));
+}
+
+void main() {
   int left = int(texelFetch(edgeRest, ivec2(gl_FragCoord.xy), 0).r);
   float count = 0.0, sum = 0.0;
   int i = 0;
   for (; i <= depthSample && left != 0; ++i) {
     float nearest = 3e38;
     for (int k = 0; k < depthSampleCount; ++k)
-      if ((left >> k & 1) != 0) nearest = min(nearest, endCoordinate(ray, sampleEndAt(k)));
+      if ((left >> k & 1) != 0) nearest = min(nearest, coordinateOf(k));
     count = 0.0;
     sum = 0.0;
     for (int k = 0; k < depthSampleCount; ++k) {
-      bool taken = (left >> k & 1) != 0 && (endCoordinate(ray, sampleEndAt(k)) <= nearest + endThreshold || i == EDGE_RAYS - 1);
+      bool taken = (left >> k & 1) != 0 && (coordinateOf(k) <= nearest + endThreshold || i == EDGE_RAYS - 1);
       if (!taken) continue;
       count += 1.0;
       sum += sampleDepthAt(k);

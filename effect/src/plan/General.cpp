@@ -103,7 +103,7 @@ gl::Definitions general(const std::string& fragment, gl::Definitions definitions
     chooseMaps(fragment, values);
   if (isMixture(values) && !isOfSunbeams(fragment, values)) values.set("MONOCHROME", 0);
   // Where light only changes its measure all lamps are alike.
-  if (isOneOf(fragment, {"interpolate", "meanLight", "unwarp", "unwarpEdges", "edgeRay", "tintGroups"}) &&
+  if (isOneOf(fragment, {"interpolate", "meanLight", "unwarp", "unwarpEdges", "tintGroups"}) &&
       values["LIGHT_KIND"] == 2)
     values.set("LIGHT_KIND", 1);
   // Epipolar textures hold one channel, or three.

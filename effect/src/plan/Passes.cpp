@@ -292,7 +292,8 @@ std::vector<PassRow> makeRows() {
       Row(Pass::EdgeRay, "edge ray", "passes/edgeRay.frag", S::Image)
           .reads({R::EdgeRest})
           .readsIfThere({kDepthSideBySide, R::SceneDepthSamples})
-          .writes({R::EdgeInscatter, R::SampleDepth}),
+          .writes({R::EdgeInscatter, R::SampleDepth})
+          .sameForAllLights(),
       Row(Pass::EdgeLight, "edges", "passes/edgeLight.frag", S::Image)
           .reads({R::EdgeInscatter, R::EdgeTransmittance})
           .into(Into::Destination)
