@@ -10,25 +10,27 @@ layout(location = 0) out vec4 outShare;
 layout(location = 1) out vec4 outDepth;
 
 // endCoordinate of lib/stored.glsl, as of a lamp: a sun's position is no light's, and only has samples told apart that need not be.
-float coordinateOf(int k) {
-  Ray ray = cameraRay(unjittered(gl_FragCoord.xy));
+float coordinateOf(float end, vec2 light) { return log2(max(end, 1e-30)) + atan(end - light.x, light.y); }
+
+// How far along the ray the light is, and how far off it.
+vec2 lightFrom(Ray ray) {
   vec3 toLight = lightPosition - ray.origin;
-  float end = sampleEndAt(k);
-  return log2(max(end, 1e-30)) + atan(end - dot(toLight, ray.direction), max(length(cross(toLight, ray.direction)), 1e-30));
+  return vec2(dot(toLight, ray.direction), max(length(cross(toLight, ray.direction)), 1e-30));
 }
 
 void main() {
+  vec2 light = lightFrom(cameraRay(unjittered(gl_FragCoord.xy)));
   int left = int(texelFetch(edgeRest, ivec2(gl_FragCoord.xy), 0).r);
   float count = 0.0, sum = 0.0;
   int i = 0;
   for (; i <= depthSample && left != 0; ++i) {
     float nearest = 3e38;
     for (int k = 0; k < depthSampleCount; ++k)
-      if ((left >> k & 1) != 0) nearest = min(nearest, coordinateOf(k));
+      if ((left >> k & 1) != 0) nearest = min(nearest, coordinateOf(sampleEndAt(k), light));
     count = 0.0;
     sum = 0.0;
     for (int k = 0; k < depthSampleCount; ++k) {
-      bool taken = (left >> k & 1) != 0 && (coordinateOf(k) <= nearest + endThreshold || i == EDGE_RAYS - 1);
+      bool taken = (left >> k & 1) != 0 && (coordinateOf(sampleEndAt(k), light) <= nearest + endThreshold || i == EDGE_RAYS - 1);
       if (!taken) continue;
       count += 1.0;
       sum += sampleDepthAt(k);
