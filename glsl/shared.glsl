@@ -7,7 +7,7 @@
 
 #define MAX_CONSTITUENTS 4
 #define MAX_SHADOW_VIEWS 6
-#define MAX_DEPTH_SAMPLES 16
+#define EDGE_RAYS 3 // that are marched for samples at an edge of a multisampled depth, at most
 #define EPIPOLE_GAP 0.25 // pixels between an epipole in the image and where slices begin
 #define CHECK_WIDTH 64 // points where scene depth and shadow maps are compared (Config::checkInputs), of a picture
 #define CHECK_HEIGHT 36
@@ -27,7 +27,7 @@ UNIFORM_BLOCK(FrameBlock) {
   vec4 phaseShape[MAX_CONSTITUENTS];  // a, b, c, side: p_k ~ (1 + c cos^2) (a + b (1 -+ cos))^(-3/2), - for side > 0
   float lightCeiling;                 // largest radiance that a light may add,
   float colourMax, outputMax;         // that the colour's format holds, the output's
-  int isMultisampled;                 // the depth texture; 2: an array
+  int isMultisampled;                 // the texture of samples that passes read
   int constituentCount;
   int depthSampleCount;               // of a pixel
   ivec2 frameSize;                    // of the image, pixels
@@ -37,8 +37,8 @@ UNIFORM_BLOCK(FrameBlock) {
   vec3 depthAxis;                     // along which axial distance grows, unit
   float skyRounding;                  // share of its distance by which a value of the far plane may lie before it
   vec2 jitter;                        // by how many pixels the image has been moved: rays are those of the camera at rest
-  int depthSample;                    // of several a pixel, the one that is drawn; -1: none
-  int framePadding0;
+  int depthSample;                    // of several a pixel, or of EDGE_RAYS, the one that is drawn; -1: none
+  int depthSampleShift;               // samples of a pixel, 2^s, that stand side by side where they are not in a multisampled texture
 };
 
 // A view of a light's shadow map.

@@ -3,7 +3,6 @@
 // for each light, over 255: what was found, hints (constants of lib/inputs.glsl) and the view, 255 for none.
 #include "shared.glsl"
 #include "lib/camera.glsl"
-#include "lib/engineDepth.glsl"
 #include "lib/depthSamples.glsl"
 #include "lib/shadowMap.glsl"
 #include "lib/inputs.glsl"

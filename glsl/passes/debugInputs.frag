@@ -3,7 +3,6 @@
 // Reads the scene depth and the first light's shadow map. Writes the back buffer.
 #include "shared.glsl"
 #include "lib/camera.glsl"
-#include "lib/engineDepth.glsl"
 #include "lib/depthSamples.glsl"
 #include "lib/shadowMap.glsl"
 #include "lib/inputs.glsl"

@@ -1,10 +1,12 @@
-// Edge light: adds what unwarp found at the edges of a multisampled depth; discards pixels of which a sample is not served, so that their
-// stencil stays for the fix-up. Reads edgeInscatter (image size; alpha 0: not served). Writes inscatter.
+// Edge light: what the edges of a multisampled depth have come to. Reads edgeInscatter, edgeTransmittance (image size). Writes inscatter
+// and transmittance.
 uniform sampler2D edgeInscatter;
+uniform sampler2D edgeTransmittance;
 layout(location = 0) out vec4 outInscatter;
+layout(location = 1) out vec4 outTransmittance;
 
 void main() {
-  vec4 light = texelFetch(edgeInscatter, ivec2(gl_FragCoord.xy), 0);
-  if (light.a == 0.0) discard;
-  outInscatter = vec4(light.rgb, 0.0);
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  outInscatter = vec4(texelFetch(edgeInscatter, pixel, 0).rgb, 0.0);
+  outTransmittance = vec4(texelFetch(edgeTransmittance, pixel, 0).rgb, 1.0);
 }

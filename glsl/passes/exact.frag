@@ -6,7 +6,6 @@
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
-#include "lib/engineDepth.glsl"
 #include "lib/depthSamples.glsl"
 #include "lib/airlight.glsl"
 #include "lib/shadow.glsl"

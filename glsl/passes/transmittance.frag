@@ -2,7 +2,6 @@
 // Writes inscatter, 0, and transmittance: as the two sources of dual-source blending (COMPOSITE 1) or into two targets.
 #include "shared.glsl"
 #include "lib/camera.glsl"
-#include "lib/engineDepth.glsl"
 #include "lib/depthSamples.glsl"
 
 #if COMPOSITE

@@ -1,9 +1,8 @@
 // Unwarp: from slices to pixels, bilinear over two slices and two samples each, each sample weighted by how well its
 // distance agrees with the pixel's (Yusov 2013, "Transformation from epipolar to rectangular coordinates"). A pixel that no
 // sample serves, or whose samples differ by a share of the picture's mean, is discarded, so that its stencil stays for the
-// fix-up. Reads the slice table, epipolarInscatter, the scene depth and, with SPREAD 1 (never with COMPOSITE), meanLight; SAMPLES, for
-// edges of a multisampled depth: firstSamples, ... of plainDepth.frag. Writes inscatter and transmittance as exact.frag does; SAMPLES: to
-// edgeInscatter, image size, RGBA32F, and discards nothing: alpha 0 where one of the samples is not served.
+// fix-up. Reads the slice table, epipolarInscatter, the scene depth and, with SPREAD 1 (never with COMPOSITE), meanLight. Writes
+// inscatter and transmittance as exact.frag does.
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
@@ -12,6 +11,7 @@
 #define Light vec3
 #include "lib/stored.glsl"
 #include "lib/fromStored.glsl"
+#include "lib/unwarp.glsl"
 
 uniform sampler2D epipolarInscatter;
 #if SPREAD
@@ -23,22 +23,7 @@ vec3 spreadUnit; // radiance of a unit of stored light at this pixel, as a part 
 #include "lib/outputs.glsl"
 #else
 layout(location = 0) out vec4 outInscatter;
-#ifndef SAMPLES
 layout(location = 1) out vec4 outTransmittance;
-#endif
-#endif
-
-#ifdef SAMPLES
-uniform sampler2D firstSamples;
-uniform sampler2D secondSamples;
-uniform sampler2D thirdSamples;
-uniform sampler2D fourthSamples;
-
-// The depth of a sample, of those of a pixel.
-float depthOf(vec4 first, vec4 second, vec4 third, vec4 fourth, int index) {
-  vec4 four = index < 4 ? first : index < 8 ? second : index < 12 ? third : fourth;
-  return four[index & 3];
-}
 #endif
 
 // Sums over samples: inscatter and weight of the bilateral filter; inscatter, end coordinate and weight of the plain
@@ -72,14 +57,6 @@ void addSlice(int slice, float sliceWeight, vec2 p, float end, inout Sums sums) 
   }
 }
 
-// Next to a lamp inscatter and its shadows change from pixel to pixel; at it every direction has a limit of its own.
-bool isNearLight(vec2 p) {
-  const float kNear = LIGHT_KIND == 0 ? EPIPOLE_GAP : LAMP_PIXELS;
-  vec2 fromEpipole = p * epipole.z - epipole.xy;
-  float near = (epipole.z > 0.0 ? kNear : EPIPOLE_GAP) * epipole.z;
-  return dot(fromEpipole, fromEpipole) < near * near;
-}
-
 // Light of the ray up to an end, as textures hold it, and its weight: less than leastWeight where no sample serves.
 vec4 lightTo(float end, Ray ray, vec2 position, float place) {
   float f = fract(place), coordinate = endCoordinate(ray, min(end, visibleEnd));
@@ -100,10 +77,6 @@ vec4 lightTo(float end, Ray ray, vec2 position, float place) {
   return sum;
 }
 
-bool isServed(vec4 light) { return light.w >= leastWeight && light.w > 0.0; }
-
-vec3 radianceOf(vec4 light, Ray ray) { return min(radianceUnit(ray) * lightOf(light.rgb / light.w), vec3(lightCeiling)); }
-
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec2 position = unjittered(gl_FragCoord.xy);
@@ -112,24 +85,9 @@ void main() {
 #if SPREAD
   spreadUnit = radianceUnit(ray) / max(texelFetch(meanLight, ivec2(0), 0).r, 1e-37);
 #endif
-#ifdef SAMPLES
-  // At edges, the mean over all samples.
-  vec4 first = texelFetch(firstSamples, pixel, 0), second = texelFetch(secondSamples, pixel, 0), third = texelFetch(thirdSamples, pixel, 0),
-       fourth = texelFetch(fourthSamples, pixel, 0);
-  vec3 radiance = vec3(0.0);
-  bool served = !isNearLight(position);
-  for (int k = 0; k < depthSampleCount; ++k) {
-    vec4 light = lightTo(max(rayEnd(position, depthOf(first, second, third, fourth, k)), 0.0), ray, position, place);
-    bool own = isServed(light);
-    served = served && own;
-    if (own) radiance += radianceOf(light, ray) / float(depthSampleCount);
-  }
-  outInscatter = vec4(radiance, served ? 1.0 : 0.0);
-#else
   float end = max(rayEnd(position, depthAt(pixel)), 0.0);
   vec4 light = lightTo(end, ray, position, place);
   if (isNearLight(position) || !isServed(light)) discard;
   outInscatter = vec4(radianceOf(light, ray), 0.0);
   outTransmittance = vec4(transmittanceTo(end), 1.0);
-#endif
 }

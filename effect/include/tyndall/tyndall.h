@@ -312,7 +312,8 @@ struct Settings {
   float averageThreshold = 0.1F;
   /// Epipolar: standard deviation of the inscatter of the samples that serve a pixel, as a part of the picture's mean,
   /// over which it is marched along its own line through the shadow map, as exactly as by Technique::Exact; > 0. 0.01
-  /// to 0.05 bring thin shafts that run between two slices, at several times the cost; no profile asks for it.
+  /// to 0.05 bring thin shafts that run between two slices, at several times the cost; no profile asks for it. Pixels
+  /// of a multisampled depth whose samples show several surfaces are left out: they take what the slices have.
   float spreadThreshold = std::numeric_limits<float>::infinity();
   /// LowRank: terms of the approximation, 1 to 8. Its error grows with the optical depth and with how much a lamp's
   /// phase function is peaked. Where the airlight has more than two coordinates (an orthographic camera before a lamp,
@@ -345,7 +346,7 @@ enum class Changes {
 /// Changes::Detect as long as a sample's end lies within the depths of the nine pixels around it, by Changes::Objects
 /// where no object is. Until the eye is drawn in full again, such a frame differs from the frame in full as far as
 /// another jitter's depth does: by less than 2 % of the mean in all that was tried, and from Exact by no more than a
-/// seventh farther.
+/// fifth farther.
 struct Reuse {
   Changes changes = Changes::Unknown;
   /// Which of the engine's eyes this is: each has a picture of its own, the last 4 that were drawn are kept.

@@ -30,18 +30,25 @@ Rectangle depthRectangle(const Frame& frame) {
   return isGiven ? given : frame.viewport;
 }
 
-bool isPlain(const Frame& frame) { return isWhole(frame) && !frame.depth.multisampled; }
-
-bool isWhole(const Frame& frame) {
+bool isPlain(const Frame& frame) {
   const Rectangle shown = depthRectangle(frame);
   return frame.depth.encoding == DepthEncoding::Window && frame.depth.layer < 0 && shown.x == 0 && shown.y == 0 &&
          shown.width == frame.viewport.width && shown.height == frame.viewport.height;
 }
 
+int sampleShift(const Frame& frame, int samples) {
+  int shift = 0;
+  if (frame.depth.multisampled && !isPlain(frame))
+    while (1 << shift < samples)
+      ++shift;
+  return shift;
+}
+
 void setEngineDepth(blocks::FrameBlock& block, const Frame& frame, float rounding) {
   const SceneDepth& depth = frame.depth;
   const Rectangle shown = depthRectangle(frame);
-  block.isMultisampled = !depth.multisampled ? 0 : depth.layer < 0 ? 1 : 2;
+  block.isMultisampled = depth.multisampled && isPlain(frame) ? 1 : 0;
+  block.depthSampleShift = sampleShift(frame, block.depthSampleCount);
   block.depthSample = -1;
   block.depthFirst = {shown.x, shown.y};
   block.depthSize = {shown.width, shown.height};

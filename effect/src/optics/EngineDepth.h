@@ -13,8 +13,8 @@ Rectangle depthRectangle(const Frame& frame);
 /// True if passes can read the texture itself: window depth, one texel a pixel from the first one on, no array.
 bool isPlain(const Frame& frame);
 
-/// The same but for its samples, of which there may be several a pixel.
-bool isWhole(const Frame& frame);
+/// Of a multisampled depth that they cannot: how many samples stand side by side in one that they can, 2^s; else 0.
+int sampleShift(const Frame& frame, int samples);
 
 /// What shaders need to read it (glsl/lib/engineDepth.glsl). The block has the camera's rays.
 /// rounding: share of a distance by which the texture's format rounds it.

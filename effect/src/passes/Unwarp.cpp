@@ -14,8 +14,8 @@ namespace {
 void planUnserved(LightPlanner& light, const Counting& counting) {
   const DrawOptions options{{}, kOnlyUnserved, counting};
   const bool ahead = !light.allocator.makes(); // another camera has other slices
-  if (light.draws() > 1 || ahead) light.drawLight(Pass::FixupAllTexels, options);
-  if (light.draws() == 1 || ahead) samples::drawLight(light, Pass::FixupAlongRow, options);
+  if (light.draws() > 1 || ahead) samples::fixUp(light, Pass::FixupAllTexels, options);
+  if (light.draws() == 1 || ahead) samples::fixUp(light, Pass::FixupAlongRow, options);
 }
 
 // Those pixels and the many between slices that disagree: along their own line.
@@ -24,20 +24,8 @@ void planBetweenSlices(LightPlanner& light) {
     light.selectDraw(draw);
     if (light.draws() > 1) rows::plan(light); // only the last draw's rows are at hand
     rows::planPairs(light);
-    samples::drawLight(light, Pass::FixupOwnLine, {{}, kOnlyUnserved});
+    samples::fixUp(light, Pass::FixupOwnLine, {{}, kOnlyUnserved});
   }
-}
-
-// Apart from the rest, so that the stencil keeps other pixels from being shaded: what discards and marks does not.
-void planEdges(LightPlanner& light, const gl::Definitions& options) {
-  const bool direct = light.variant.composite;
-  light.variant.composite = false;
-  light.draw(Pass::UnwarpEdges, {options, onEdges({})});
-  light.variant.composite = direct;
-  if (light.firstLight) light.draw(Pass::Transmittance, rowOf(Pass::Transmittance).name, {{}, onEdges({})});
-  DrawOptions adding{{}, onEdges(kMarkServed)};
-  adding.adds = true;
-  light.draw(Pass::EdgeLight, adding);
 }
 
 // The tiles that hold a pixel to fix up.
@@ -58,18 +46,18 @@ void plan(LightPlanner& light) {
   const bool whole = light.drawnTiles == 0 && !light.drawsMarked; // else how many pixels are drawn is not known
   light.selectDraw(0);
   light.clearStencil();
-  const bool samples = light.extent.sampledDepth;
-  const gl::Definitions spreads = {{"SPREAD", spread ? 1 : 0}};
-  Counting counting = whole && !samples ? Counting{Count::Served, light.pixels()} : Counting{};
-  light.draw(Pass::Unwarp, {spreads, samples ? offEdges(kMarkServed) : kMarkServed, counting});
-  if (samples) planEdges(light, spreads);
+  const bool sampled = light.extent.sampledDepth;
+  Counting counting = whole && !sampled ? Counting{Count::Served, light.pixels()} : Counting{};
+  light.draw(Pass::Unwarp, {{{"SPREAD", spread ? 1 : 0}}, sampled ? offEdges(kMarkServed) : kMarkServed, counting});
+  if (sampled) samples::unwarpEdges(light); // apart, so that the stencil keeps other pixels from being shaded
   const gl::Uint tiles = light.drawnTiles;
   if (light.tuning.fixup == Masking::Tiles) light.drawnTiles = planTiles(light);
   if (spread)
     planBetweenSlices(light);
   else
-    planUnserved(light, whole && !samples ? Counting{} : Counting{Count::FixedUp});
+    planUnserved(light, whole && !sampled ? Counting{} : Counting{Count::FixedUp});
   light.drawnTiles = tiles;
+  if (sampled) samples::addEdges(light);
 }
 
 } // namespace tyndall::passes::unwarp

@@ -241,12 +241,15 @@ void Drawer::bindBlocks(const Draw& draw) {
 
 void Drawer::setBlend(Blend blend) {
   if (blend == blend_) return;
-  if (blend_ == Blend::Colour || blend == Blend::Colour) gl_.ColorMaski(0, 1, 1, 1, blend != Blend::Colour);
-  const auto blends = [](Blend b) { return b != Blend::Replace && b != Blend::Colour; };
+  const auto writesAll = [](Blend b) { return b != Blend::Colour && b != Blend::Alpha; };
+  const auto blends = [&](Blend b) { return b != Blend::Replace && writesAll(b); };
+  if (const gl::Boolean rgb = blend != Blend::Alpha; !writesAll(blend_) || !writesAll(blend))
+    gl_.ColorMaski(0, rgb, rgb, rgb, blend != Blend::Colour);
   const gl::Enum alpha = blend == Blend::AddAll ? gl::ONE : gl::ZERO;
+  const gl::Enum source = blend == Blend::AddByAlpha ? gl::DST_ALPHA : gl::ONE;
   if (blends(blend))
     gl::setBlending(gl_, gl::kDrawBuffers, true,
-                    {gl::ONE, blend == Blend::DualSource ? gl::SRC1_COLOR : gl::ONE, alpha, gl::ONE});
+                    {source, blend == Blend::DualSource ? gl::SRC1_COLOR : gl::ONE, alpha, gl::ONE});
   else if (blends(blend_))
     gl::setBlending(gl_, gl::kDrawBuffers, false);
   blend_ = blend;

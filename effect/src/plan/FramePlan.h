@@ -23,9 +23,11 @@ namespace tyndall {
 enum class Blend {
   Replace,    ///< overwrite
   Add,        ///< target + source 0 (rgb); alpha stays
+  AddByAlpha, ///< target + source 0 times the target's alpha (rgb); alpha stays
   AddAll,     ///< target + source 0, alpha too
   DualSource, ///< target * source 1 + source 0 (rgb); alpha stays
   Colour,     ///< overwrite rgb; alpha stays
+  Alpha,      ///< overwrite alpha; rgb stays. Of the first output; others are overwritten
 };
 
 /// A pixel's bits in the stencil buffer: what it lets a draw into, and what the draw leaves there. Off without either.

@@ -103,14 +103,14 @@ gl::Definitions general(const std::string& fragment, gl::Definitions definitions
     chooseMaps(fragment, values);
   if (isMixture(values) && !isOfSunbeams(fragment, values)) values.set("MONOCHROME", 0);
   // Where light only changes its measure all lamps are alike.
-  if (isOneOf(fragment, {"interpolate", "meanLight", "unwarp", "tintGroups"}) && values["LIGHT_KIND"] == 2)
+  if (isOneOf(fragment, {"interpolate", "meanLight", "unwarp", "unwarpEdges", "tintGroups"}) &&
+      values["LIGHT_KIND"] == 2)
     values.set("LIGHT_KIND", 1);
   // Epipolar textures hold one channel, or three.
-  if (isOneOf(fragment, {"interpolate", "meanLight", "unwarp"}) && values["GLASS"] != 0) {
+  if (isOneOf(fragment, {"interpolate", "meanLight", "unwarp", "unwarpEdges"}) && values["GLASS"] != 0) {
     values.set("GLASS", 0);
     values.set("MONOCHROME", 0);
   }
-  if (values["SAMPLES"] != 0) values.set("SPREAD", 0); // edges of surfaces are not looked at for those of shadows
   if (values["MEAN_OF"] == 2)
     for (const char* name : {"LIGHT_KIND", "GLASS", "MONOCHROME"})
       values.set(name, 0);

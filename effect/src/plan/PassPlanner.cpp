@@ -50,7 +50,7 @@ void PassPlanner::draw(Pass pass, const std::string& title, const DrawOptions& o
   draw.title = title;
   draw.variant = variantOf(pass, variant, options.options);
   draw.firstVertex = firstVertexOf(pass, changes);
-  draw.blend = blendOf(row.joining, options.adds);
+  draw.blend = options.blend.value_or(blendOf(row.joining));
   draw.stencil = stencilFor(row.shape, options.stencil);
   draw.counting = options.counting;
   draw.blocks = {frameBlock, lightBlock, epipolarBlock};
@@ -66,7 +66,7 @@ void PassPlanner::draw(Pass pass, const std::string& title, const DrawOptions& o
 void PassPlanner::drawLight(Pass pass, const std::string& title, DrawOptions options) {
   if (firstLight && drawIndex == 0 && destination.transmittance != 0) {
     draw(Pass::Transmittance, rowOf(Pass::Transmittance).name, {{}, options.stencil});
-    options.adds = true;
+    options.blend = Blend::Add;
   }
   draw(pass, title, options);
 }
@@ -81,7 +81,7 @@ void PassPlanner::clearStencil() {
 }
 
 void PassPlanner::clearStencil(gl::Uint bits) {
-  const gl::Uint target = destinationTarget(blendOf(Joining::SumOfLights, false), true);
+  const gl::Uint target = destinationTarget(blendOf(Joining::SumOfLights), true);
   plan.steps.emplace_back(Clear{target, bits});
 }
 
@@ -187,14 +187,12 @@ void PassPlanner::addBands(const PassRow& row, Draw& draw) const {
   if (learns) draw.bands.estimate = draw.bands.milliseconds / pace;
 }
 
-Blend PassPlanner::blendOf(Joining joining, bool adds) const {
+Blend PassPlanner::blendOf(Joining joining) const {
   switch (joining) {
   case Joining::SumOfDraws:
     return drawIndex == 0 ? Blend::Replace : Blend::AddAll;
   case Joining::SumOfLights:
-    return adds || !firstLight || drawIndex > 0 ? Blend::Add
-           : destination.direct()               ? Blend::DualSource
-                                                : Blend::Replace;
+    return !firstLight || drawIndex > 0 ? Blend::Add : destination.direct() ? Blend::DualSource : Blend::Replace;
   case Joining::AddAll:
     return Blend::AddAll;
   case Joining::BlendIntoColour:

@@ -50,7 +50,7 @@ struct DrawOptions {
   std::optional<float> clearTo = {};     ///< clears the target first
   gl::Uint output = 0;                   ///< Into::Output: which texture
   int layer = -1;                        ///< of the resource's textures, if they are arrays
-  bool adds = false;                     ///< to a destination that has light or transmittance already
+  std::optional<Blend> blend = {};       ///< in place of the row's joining
 };
 
 class PassPlanner {
@@ -72,8 +72,8 @@ public:
   std::uint64_t pixels() const {
     return static_cast<std::uint64_t>(extent.width) * static_cast<std::uint64_t>(extent.height);
   }
-  /// What plainDepth.frag is told of the engine's texture.
-  gl::Definitions depthSource() const { return {{"DEPTH_SOURCE", depthSourceIndex}}; }
+  /// How depthSamples.glsl finds samples.
+  gl::Definitions samplesOfDepth() const { return {{"SIDE_BY_SIDE", extent.sampleShift > 0 ? 1 : 0}}; }
   void skip(const std::string& pass, const std::string& why) { plan.skip(titleOf(pass), why); }
 
   Allocator& allocator;
@@ -85,7 +85,6 @@ public:
   Extent extent;
   LightVariant variant;
   RayPaths paths;
-  int depthSourceIndex = 0;         ///< which kind of texture the scene depth comes from (plainDepth.frag)
   const BandPaces* paces = nullptr; ///< what is known of earlier frames' draws
   Destination destination;
   std::string name;       ///< of the light, for statistics; else empty
@@ -117,7 +116,7 @@ private:
   void addOwnTarget(const PassRow& row, int layer, bool withStencil, Draw& draw);
   void addVertices(Shape shape, bool changes, Draw& draw) const;
   void addBands(const PassRow& row, Draw& draw) const;
-  Blend blendOf(Joining joining, bool adds) const;
+  Blend blendOf(Joining joining) const;
   gl::Uint destinationTarget(Blend blend, bool withStencil);
 };
 

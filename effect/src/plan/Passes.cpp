@@ -10,7 +10,8 @@ using R = Resource;
 using O = const Occurrence&;
 
 const Option kHashes{"ROW_HASHES", {kUndefined, 1}}, kTintSums{"TINT_SUMS", {kUndefined, 1}},
-    kStripsOfRows{"STRIPS_OF_ROWS", {1}}, kEdges{"EDGES", {1}};
+    kStripsOfRows{"STRIPS_OF_ROWS", {1}}, kSideBySide{"SIDE_BY_SIDE", {0, 1}};
+const Read kDepthSideBySide{R::SceneDepthSideBySide, "sceneDepth"};
 
 bool blendsTwoSources(O o) { return o.light.dualSource; }
 bool copiesColour(O o) { return !o.light.dualSource; }
@@ -24,7 +25,6 @@ bool hasRowDepths(O o) {
 }
 bool hasTree(O o) { return hasRows(o) && (!o.has("TINT_SUMS") || hasPanes(o)); }
 bool hasLowRank(O o) { return !o.has("TINT_SUMS") || hasPanes(o); }
-bool isNotComposite(O o) { return !o.light.composite; }
 bool isUnwarped(O o) { return !o.light.composite || !o.has("SPREAD"); }
 bool comparesRows(O o) { return hasRows(o) && o.has("ROW_HASHES") == o.light.hasShares(); }
 
@@ -105,15 +105,15 @@ std::vector<PassRow> makeRows() {
       Row(Pass::PlainDepth, "plain depth", "passes/plainDepth.frag")
           .reads({R::EngineDepth})
           .writes({R::PlainDepth})
-          .options({{"DEPTH_SOURCE", {0, 1, 2, 3, 4}}})
+          .options({{"DEPTH_SOURCE", {0, 1, 2, 3}}})
           .sameForAllLights(),
       Row(Pass::Exact, "exact", "passes/exact.frag", S::Image)
-          .readsIfThere({R::SceneDepth, R::SceneDepthSamples, R::SceneDepthSampleLayers}) // one of the three
+          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples}) // one of the two
           .walksTexels()
           .into(Into::Destination)
           .joins(kSumOfLights),
       Row(Pass::Transmittance, "transmittance", "passes/transmittance.frag", S::Image)
-          .readsIfThere({R::SceneDepth, R::SceneDepthSamples, R::SceneDepthSampleLayers}) // one of the three
+          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples}) // one of the two
           .into(Into::Destination)
           .joins(kSumOfLights),
       Row(Pass::Composite, "composite", "passes/composite.frag")
@@ -145,20 +145,15 @@ std::vector<PassRow> makeRows() {
           .options({{"SOURCE", {0, 1, 2, 3}}, {"GLASS", {0, 1}}})
           .when(isSampled)
           .sameForAllLights(),
-      Row(Pass::EdgeSamples, "edge samples", "passes/plainDepth.frag")
-          .reads({R::EngineDepth})
-          .writes({R::FirstSamples, R::SecondSamples})
-          .options({{"DEPTH_SOURCE", {2, 3, 4}}, kEdges})
+      Row(Pass::OneDepth, "one depth", "passes/oneDepth.frag")
+          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples})
+          .writes({R::OneDepth})
+          .options({kSideBySide})
           .sameForAllLights(),
-      Row(Pass::MoreEdgeSamples, "edge samples", "passes/plainDepth.frag")
-          .reads({R::EngineDepth})
-          .writes({R::ThirdSamples, R::FourthSamples})
-          .options({{"DEPTH_SOURCE", {2, 3, 4}}, kEdges})
-          .sameForAllLights(),
-      Row(Pass::SampleDepth, "sample depth", "passes/plainDepth.frag")
-          .reads({R::EngineDepth})
+      Row(Pass::SampleDepth, "sample depth", "passes/oneDepth.frag")
+          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples})
           .writes({R::SampleDepth})
-          .options({{"DEPTH_SOURCE", {2, 3, 4}}})
+          .options({kSideBySide})
           .sameForAllLights(),
       Row(Pass::Edges, "edges", "passes/edges.frag", S::Image)
           .reads({R::SceneDepth})
@@ -284,16 +279,31 @@ std::vector<PassRow> makeRows() {
           .joins(kSumOfLights)
           .options({{"SPREAD", {0, 1}}})
           .when(isUnwarped),
-      Row(Pass::UnwarpEdges, "unwarp", "passes/unwarp.frag", S::Image)
-          .reads({R::SceneDepth, R::SliceTable, R::EpipolarInscatter, R::MeanLight})
-          .readsIfThere({R::FirstSamples, R::SecondSamples, R::ThirdSamples, R::FourthSamples}) // as many as there are
-          .writes({R::EdgeInscatter})
-          .options({{"SPREAD", {0, 1}}, {"SAMPLES", {1}}})
-          .when(isNotComposite),
-      Row(Pass::EdgeLight, "edges", "passes/edgeLight.frag", S::Image)
-          .reads({R::EdgeInscatter})
+      Row(Pass::UnwarpEdges, "unwarp", "passes/unwarpEdges.frag", S::Image)
+          .reads({R::SliceTable, R::EpipolarInscatter})
+          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples})
+          .writes({R::EdgeInscatter, R::EdgeTransmittance, R::EdgeRest})
+          .options({kSideBySide}),
+      Row(Pass::ServedEdges, "edges", "passes/edges.frag", S::Image)
+          .reads({{R::EdgeRest, "sceneDepth"}})
           .into(Into::Destination)
           .joins(kSumOfLights)
+          .sameForAllLights(),
+      Row(Pass::EdgeRay, "edge ray", "passes/edgeRay.frag", S::Image)
+          .reads({R::EdgeRest})
+          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples})
+          .writes({R::EdgeInscatter, R::SampleDepth})
+          .sameForAllLights(),
+      Row(Pass::EdgeLight, "edges", "passes/edgeLight.frag", S::Image)
+          .reads({R::EdgeInscatter, R::EdgeTransmittance})
+          .into(Into::Destination)
+          .joins(kSumOfLights)
+          .sameForAllLights(),
+      Row(Pass::EdgeComposite, "edges", "passes/composite.frag")
+          .reads({{R::EdgeInscatter, "inscatter"}, {R::EdgeTransmittance, "transmittance"}})
+          .into(Into::Destination)
+          .joins(kSumOfLights)
+          .when(blendsTwoSources)
           .sameForAllLights(),
       Row(Pass::Unserved, "unserved", "passes/red.frag", S::Image).writes({R::Unserved}).sameForAllLights(),
       Row(Pass::UnservedTiles, "unserved tiles", "passes/unservedTiles.frag")
@@ -306,7 +316,7 @@ std::vector<PassRow> makeRows() {
           .into(Into::Destination)
           .joins(kSumOfLights),
       Row(Pass::FixupAllTexels, "fix-up", "passes/exact.frag", S::Image)
-          .readsIfThere({R::SceneDepth, R::SceneDepthSamples, R::SceneDepthSampleLayers}) // one of the three
+          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples}) // one of the two
           .walksTexels()
           .into(Into::Destination)
           .joins(kSumOfLights),
@@ -365,7 +375,7 @@ std::vector<PassRow> makeRows() {
           .sameForAllLights(),
       Row(Pass::CheckInputs, "check", "passes/checkInputs.frag")
           .reads({R::ShadowMap})
-          .readsIfThere({R::SceneDepth, R::SceneDepthSamples, R::SceneDepthSampleLayers})
+          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples})
           .writes({R::InputChecks})
           .when(hasRows),
       Row(Pass::DebugSlices, "debug view", "passes/debugSlices.frag")
@@ -411,7 +421,7 @@ std::vector<PassRow> makeRows() {
           .joins(Joining::OverwriteRgb)
           .sameForAllLights(),
       Row(Pass::DebugInputs, "debug view", "passes/debugInputs.frag")
-          .readsIfThere({R::SceneDepth, R::SceneDepthSamples, R::SceneDepthSampleLayers, R::ShadowMap})
+          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples, R::ShadowMap})
           .into(Into::Colour)
           .joins(Joining::OverwriteRgb),
   };

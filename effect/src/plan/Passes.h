@@ -20,8 +20,7 @@ enum class Pass {
   CompositeOfCopy,
   CopyToOutput,
   MapCopy, // of a light, where passes do not read its maps as they are
-  EdgeSamples,
-  MoreEdgeSamples,
+  OneDepth,
   SampleDepth,
   Edges,
   // A light's rows and slices (passes/Epipolar.cpp has the picture).
@@ -48,7 +47,10 @@ enum class Pass {
   Interpolate,
   Unwarp,
   UnwarpEdges,
+  ServedEdges,
+  EdgeRay,
   EdgeLight,
+  EdgeComposite,
   Unserved,
   UnservedTiles,
   FixupAlongRow,

@@ -76,9 +76,8 @@ FramePlanner::FramePlanner(const PlanInputs& inputs, Allocator& allocator, Plann
                             inputs.textures.transmittance.format};
   passes_.variant.dualSource = inputs.tuning.compositing == Compositing::DualSource;
   passes_.extent.sampledDepth = frame_.depth.multisampled;
-  passes_.depthSourceIndex = (frame_.depth.layer < 0 ? 0 : 1) + (frame_.depth.multisampled ? 2 : 0);
-  if (frame_.depth.multisampled && optics::isWhole(frame_)) passes_.depthSourceIndex = 4;
-  passes_.paths.depthSamples = passes_.extent.depthSamples = inputs.textures.depthSamples;
+  passes_.extent.sampleShift = optics::sampleShift(frame_, inputs.textures.depthSamples);
+  passes_.paths.depthSamples = inputs.textures.depthSamples;
   passes_.paces = inputs.paces;
   out.plan.bandMilliseconds = inputs.tuning.bandMilliseconds;
 }
@@ -147,38 +146,33 @@ Destination FramePlanner::chooseDestination(bool changes) {
   return to;
 }
 
-// What passes read as scene depth: the engine's texture, or one depth a pixel out of it.
-void FramePlanner::planDepth() {
+// The engine's texture where passes can read it, or what is made of it.
+void FramePlanner::planSamples() {
   const SceneDepth& depth = frame_.depth;
   Board& board = passes_.board;
-  if (depth.multisampled)
-    board[depth.layer < 0 ? Resource::SceneDepthSamples : Resource::SceneDepthSampleLayers] = depth.texture;
-  if (depth.multisampled && !usesSlices(frame_)) return;
-  board[Resource::SceneDepth] = board[Resource::EngineDepth] = depth.texture;
-  if (optics::isPlain(frame_)) return;
+  if (optics::isPlain(frame_)) {
+    board[depth.multisampled ? Resource::SceneDepthSamples : Resource::SceneDepthSideBySide] = depth.texture;
+    return;
+  }
+  board[Resource::EngineDepth] = depth.texture;
   DrawOptions source;
-  source.options = passes_.depthSource();
+  source.options = {{"DEPTH_SOURCE", (depth.layer < 0 ? 0 : 1) + (depth.multisampled ? 2 : 0)}};
   passes_.draw(Pass::PlainDepth, source);
-  board[Resource::SceneDepth] = board[Resource::PlainDepth];
-  if (depth.multisampled) planEdges();
+  board[Resource::SceneDepthSideBySide] = board[Resource::PlainDepth];
 }
 
-// The pixels whose samples show several surfaces, and, for unwarp, these samples' depths.
-void FramePlanner::planEdges() {
+// Slices take one depth a pixel; of a multisampled one, where a pixel's samples show several surfaces, it is marked.
+void FramePlanner::planDepth() {
+  planSamples();
+  Board& board = passes_.board;
+  board[Resource::SceneDepth] = board[Resource::SceneDepthSideBySide];
+  if (!frame_.depth.multisampled || !usesSlices(frame_)) return;
+  passes_.draw(Pass::OneDepth, {passes_.samplesOfDepth()});
+  board[Resource::SceneDepth] = board[Resource::OneDepth];
   DrawOptions marking{{}, kMarkEdges};
-  marking.adds = true;
+  marking.blend = Blend::Add;
   passes_.clearStencil(Stencil::kAll);
   passes_.draw(Pass::Edges, marking);
-  if (frame_.settings.technique != Technique::Epipolar) return;
-  const int given = passes_.frameBlock;
-  auto block = out_.plan.block<blocks::FrameBlock>(given);
-  for (const auto& [pass, first] : {std::pair{Pass::EdgeSamples, 0}, std::pair{Pass::MoreEdgeSamples, 8}}) {
-    if (first >= passes_.extent.depthSamples) break;
-    block.depthSample = first;
-    passes_.frameBlock = out_.plan.add(block);
-    passes_.draw(pass, {passes_.depthSource(), onEdges({})});
-  }
-  passes_.frameBlock = given;
 }
 
 void FramePlanner::begin(const Destination& destination) {
@@ -306,7 +300,7 @@ void FramePlanner::planInputs() {
 }
 
 void FramePlanner::planCheck() {
-  planDepth();
+  planSamples();
   for (std::size_t i = 0; i < frame_.lights.size(); ++i) {
     if (frame_.lights[i].shadow.texture == 0) continue;
     LightPlanner light = mapOf(i);

@@ -66,8 +66,8 @@ private:
   Destination chooseDestination(bool changesColour);
   Destination keptDestination() const;
   void begin(const Destination& destination);
+  void planSamples();
   void planDepth();
-  void planEdges();
   std::vector<DrawnLight> lightsToDraw(const Frame& frame, const Destination& destination);
   void planLights(const Frame& frame, const Destination& destination, const std::vector<DrawnLight>& lights);
   void planPicture();

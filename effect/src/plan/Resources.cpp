@@ -21,9 +21,6 @@ constexpr Format kGiven{}, kR8{gl::R8, 1}, kR32{gl::R32F, 4}, kRg32{gl::RG32F, 8
 constexpr int kPartTexels = 256, kChunk = 64;
 
 bool always(E) { return true; }
-bool sampledDepth(E e) { return e.sampledDepth; }
-bool fiveSamples(E e) { return e.depthSamples > 4; }
-bool nineSamples(E e) { return e.depthSamples > 8; }
 bool wideColour(E e) { return e.wideColour; }
 bool floatTint(E e) { return e.floatTint; }
 bool coloured(E e) { return e.coloured; }
@@ -51,6 +48,7 @@ int curveNodes(int cells) {
 
 Size none(E) { return {}; }
 Size image(E e) { return {e.width, e.height}; }
+Size sideBySide(E e) { return {e.width << ((e.sampleShift + 1) / 2), e.height << (e.sampleShift / 2)}; }
 Size table(E e) { return {e.slices, e.tableRows}; }
 Size samples(E e) { return {e.slices, e.samples}; }
 Size chunks(E e) { return {e.slices, e.samples / kChunk}; }
@@ -91,8 +89,8 @@ constexpr ResourceRow kRows[] = {
     {"scene depth", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "the engine's"},
     {"scene depth samples", kGiven, kGiven, always, always, none, none, Lifetime::Frame,
      "the engine's, if multisampled"},
-    {"scene depth sample layers", kGiven, kGiven, always, always, none, none, Lifetime::Frame,
-     "the engine's, if an array of those"},
+    {"scene depth side by side", kGiven, kGiven, always, always, none, none, Lifetime::Frame,
+     "the engine's, if it is not, or plain depth"},
     {"engine depth", kGiven, kGiven, always, always, none, none, Lifetime::Frame,
      "the engine's, where it is not what passes read"},
     {"shadow map", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "the engine's"},
@@ -101,16 +99,17 @@ constexpr ResourceRow kRows[] = {
     {"curves", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "smoke and hair: Light::curves"},
     {"image", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "what a pass copies or shows"},
     {"empty", kR32, kR32, always, always, one, one, Lifetime::Frame, "what a sampler reads that has nothing to read"},
-    {"plain depth", kRg32, kR32, sampledDepth, always, image, image, Lifetime::Frame,
-     "the scene depth out of a larger, smaller, layered, multisampled or encoded one"},
+    {"plain depth", kR32, kR32, always, always, sideBySide, sideBySide, Lifetime::Frame,
+     "the scene depth out of a larger, smaller, layered or encoded one; of several samples side by side"},
+    {"one depth", kRg32, kRg32, always, always, image, image, Lifetime::Frame,
+     "multisampled depth: one of a pixel's samples, and whether they differ"},
     {"sample depth", kR32, kR32, always, always, image, image, Lifetime::Frame,
      "the same: of one sample, where a pixel's differ"},
-    {"first samples", kRgba32, kRgba32, always, always, image, image, Lifetime::Frame, "the same: of four of them"},
-    {"second samples", kRgba32, kRgba32, always, fiveSamples, image, image, Lifetime::Frame, "the same: of more"},
-    {"third samples", kRgba32, kRgba32, always, nineSamples, image, image, Lifetime::Frame, "the same: of more"},
-    {"fourth samples", kRgba32, kRgba32, always, nineSamples, image, image, Lifetime::Frame, "the same: of more"},
     {"edge inscatter", kRgba32, kRgba32, always, always, image, image, Lifetime::Frame,
      "the same: what unwarp makes of those"},
+    {"edge transmittance", kRgba32, kRgba32, always, always, image, image, Lifetime::Frame, "the same"},
+    {"edge rest", kRg32, kRg32, always, always, image, image, Lifetime::Frame,
+     "the same: samples that no slice serves"},
     {"shadow copy", kR32, kR32, always, always, mapCopy, mapCopy, Lifetime::Light,
      "shadow maps that are cubes, hold other than window depth, or are seldom so: a layer for each view"},
     {"glass colour copy", kRgba32, kRgba8, floatTint, glass, mapCopy, mapCopy, Lifetime::Light, "the same of glass"},

@@ -13,9 +13,9 @@ namespace tyndall {
 enum class Resource {
   // Given: the engine's, or what a pass is told to read.
   SceneDepth,
-  SceneDepthSamples,      // in its place
-  SceneDepthSampleLayers, // likewise, of an array
-  EngineDepth,            // whatever plain depth is made of
+  SceneDepthSamples,    // of all samples, in a multisampled texture,
+  SceneDepthSideBySide, // or as texels side by side
+  EngineDepth,          // whatever plain depth is made of
   ShadowMap,
   GlassColour,
   GlassDepth,
@@ -23,13 +23,12 @@ enum class Resource {
   Image,
   // The effect's own.
   Empty,
-  PlainDepth,  // as SceneDepth
+  PlainDepth,  // as SceneDepthSideBySide
+  OneDepth,    // as SceneDepth
   SampleDepth, // likewise, for a while
-  FirstSamples,
-  SecondSamples,
-  ThirdSamples,
-  FourthSamples,
   EdgeInscatter,
+  EdgeTransmittance,
+  EdgeRest,
   ShadowCopy,
   GlassColourCopy,
   GlassDepthCopy,
@@ -106,8 +105,8 @@ struct Extent {
   int curveCells = 0;                ///< texels per side of the map of Light::curves
   int terms = 0, lowRankSets = 0;    ///< Technique::LowRank
   int tintLevel = 0;                 ///< of the sums of tints: 0 is the finest
-  int depthSamples = 0;              ///< of a pixel in the scene depth
   bool sampledDepth = false;         ///< the scene depth has several samples a pixel
+  int sampleShift = 0;               ///< which stand side by side in plain depth: 2^s
   bool wideColour = true;            ///< the engine's colour is one of 32-bit floats
   std::array<gl::Enum, 3> engines{}; ///< formats of the engine's colour and outputs
   bool floatTint = true;             ///< tints of the glass map have more than 8 bits

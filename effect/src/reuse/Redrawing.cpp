@@ -169,7 +169,7 @@ void planMask(LightPlanner& light, bool comparesDepth, bool begins) {
   if (light.tuning.reuse == Masking::Stencil) {
     if (begins) light.clearStencil();
     options.stencil = kMarkChanged;
-    options.adds = true;
+    options.blend = Blend::Add;
     return light.draw(Pass::ChangedPixels, options);
   }
   if (begins) options.clearTo = 0;

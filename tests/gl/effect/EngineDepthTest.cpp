@@ -156,6 +156,43 @@ TEST_CASE("multisampled scene depth in a part of a larger texture, or a layer, g
   CHECK(answer.transmittance == expected.transmittance);
 }
 
+TEST_CASE("multisampled scene depth in a layer, or encoded, gives the picture of one that passes can read as it is") {
+  for (const Technique technique : {Technique::Exact, Technique::Epipolar, Technique::Tree}) {
+    CAPTURE(static_cast<int>(technique));
+    tests::SceneRig rig = litRig();
+    rig.frame.settings.technique = technique;
+    const int width = kWidth, height = kHeight;
+    const auto distanceOf = [](int pixel, int sample) { return 3 + 0.01 * pixel + 0.2 * sample; };
+    rig.setMultisampledDepth(
+        4, GL_R32F, [&](int pixel, int sample) { return rig.convention().windowDepth(distanceOf(pixel, sample)); });
+    const reference::ImageAnswer expected = rig.render();
+    const host::GlTexture array = host::makeTexture();
+    gl().BindTexture(GL_TEXTURE_2D_MULTISAMPLE_ARRAY, array.name());
+    gl().TexImage3DMultisample(GL_TEXTURE_2D_MULTISAMPLE_ARRAY, 4, GL_R32F, width, height, 3, GL_TRUE);
+    const host::GlFramebuffer from = host::makeFramebuffer(), to = host::makeFramebuffer();
+    gl().BindFramebuffer(GL_READ_FRAMEBUFFER, from.name());
+    gl().FramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE,
+                              rig.frame.depth.texture, 0);
+    gl().BindFramebuffer(GL_DRAW_FRAMEBUFFER, to.name());
+    gl().FramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, array.name(), 0, 2);
+    gl().BlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    gl().BindFramebuffer(GL_FRAMEBUFFER, 0);
+    tests::testContext().takeErrors();
+    rig.frame.depth.texture = array.name();
+    rig.frame.depth.layer = 2;
+    const reference::ImageAnswer layered = rig.render();
+    CHECK(layered.inscatter == expected.inscatter);
+    CHECK(layered.transmittance == expected.transmittance);
+    rig.setMultisampledDepth(4, GL_R32F,
+                             [&](int pixel, int sample) { return static_cast<float>(distanceOf(pixel, sample) / 40); });
+    rig.frame.depth.encoding = DepthEncoding::Axial;
+    rig.frame.depth.scale.unit = 40;
+    const reference::ImageAnswer encoded = rig.render();
+    CHECK(tests::difference(encoded.inscatter, expected.inscatter) <= 1e-5);
+    CHECK(tests::difference(encoded.transmittance, expected.transmittance) <= 1e-5);
+  }
+}
+
 // ---------------------------------------------------------------------------------------------------------------------
 
 namespace {
