@@ -1,12 +1,15 @@
 // Sample ends: the length of the camera ray at every sample of every slice, from the nearest pixel's depth and its slope, or, keepsEnds,
 // as it was. Reads the slice table, the scene depth and, keepsEnds, the last sampleEnds. Writes sampleEnds: slices x samples, R32F, world units, -1 beyond a slice's
 // last sample.
+// KEEPS_ENDS: 0, or 1 where the block may ask for it.
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/depth.glsl"
 #include "lib/slices.glsl"
 
+#if KEEPS_ENDS
 uniform sampler2D lastSampleEnds;
+#endif
 layout(location = 0) out vec4 outEnd;
 
 // The slope of the depth along an axis: the lesser change to the two neighbours, so as not to reach across an edge, where
@@ -40,8 +43,7 @@ bool isBorneOut(vec2 p, float last) {
   const float kRounding = 2.5e-7; // of depths
   ivec2 middle = pixelAt(p);
   vec2 range = vec2(3e38, -3e38);
-  int count = keepsEnds != 0 ? 9 : 0; // compilers that take both sides of a branch leave a loop of none
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < 9; ++i) {
     float depth = depthAt(clamp(middle + ivec2(i % 3, i / 3) - 1, ivec2(0), frameSize - 1));
     if (depth < range.x) range.x = depth; // not those that are no numbers
     if (depth > range.y) range.y = depth;
@@ -54,9 +56,11 @@ void main() {
   int slice = int(gl_FragCoord.x), index = int(gl_FragCoord.y), samples = sliceSamples(slice);
   vec2 p = samplePosition(sliceEnds(slice), samples, float(index));
   float end = endOf(p, depthAtPosition(p));
+#if KEEPS_ENDS
   if (keepsEnds != 0 && index < samples) {
     float last = texelFetch(lastSampleEnds, ivec2(slice, index), 0).r;
     if (isBorneOut(p, last)) end = last;
   }
+#endif
   outEnd = vec4(index < samples ? end : -1.0, 0.0, 0.0, 0.0);
 }

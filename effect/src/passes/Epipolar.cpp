@@ -31,7 +31,7 @@ namespace {
 
 void planEpipolar(LightPlanner& light) {
   light.selectDraw(0);
-  light.draw(Pass::SampleEnds);
+  light.draw(Pass::SampleEnds, {{{"KEEPS_ENDS", 0}}});
   if (light.draws() == 1) rows::plan(light);
   planToInterpolate(light);
   unwarp::plan(light);

@@ -73,7 +73,7 @@ void drawLight(LightPlanner& light, Pass pass, const DrawOptions& options) {
 }
 
 void unwarpEdges(LightPlanner& light) {
-  light.draw(Pass::UnwarpEdges, {light.samplesOfDepth(), onEdges({})});
+  light.draw(Pass::UnwarpEdges, {{}, onEdges({})});
   DrawOptions marking{{}, onEdges(kMarkServed)};
   marking.blend = Blend::Add;
   light.draw(Pass::ServedEdges, marking);

@@ -10,7 +10,7 @@ using R = Resource;
 using O = const Occurrence&;
 
 const Option kHashes{"ROW_HASHES", {kUndefined, 1}}, kTintSums{"TINT_SUMS", {kUndefined, 1}},
-    kStripsOfRows{"STRIPS_OF_ROWS", {1}}, kSideBySide{"SIDE_BY_SIDE", {0, 1}};
+    kStripsOfRows{"STRIPS_OF_ROWS", {1}}, kSideBySide{"SIDE_BY_SIDE", {0, 1}}, kKeepsEnds{"KEEPS_ENDS", {0, 1}};
 const Read kDepthSideBySide{R::SceneDepthSideBySide, "sceneDepth"};
 
 bool blendsTwoSources(O o) { return o.light.dualSource; }
@@ -163,7 +163,8 @@ std::vector<PassRow> makeRows() {
       Row(Pass::SampleEnds, "sample ends", "passes/sampleEnds.frag", S::Slices)
           .reads({R::SceneDepth, R::SliceTable})
           .readsIfThere({R::LastSampleEnds})
-          .writes({R::SampleEnds}),
+          .writes({R::SampleEnds})
+          .options({kKeepsEnds}),
       Row(Pass::RowDepths, "rows", "passes/rowDepths.frag", S::StripsOfRows)
           .reads({R::SliceTable, R::ShadowMap, R::GlassColour, R::GlassDepth})
           .writes({R::RowDepths, R::RowShares, R::RowHashes})
@@ -282,8 +283,7 @@ std::vector<PassRow> makeRows() {
       Row(Pass::UnwarpEdges, "unwarp", "passes/unwarpEdges.frag", S::Image)
           .reads({R::SliceTable, R::EpipolarInscatter})
           .readsIfThere({kDepthSideBySide, R::SceneDepthSamples})
-          .writes({R::EdgeInscatter, R::EdgeTransmittance, R::EdgeRest})
-          .options({kSideBySide}),
+          .writes({R::EdgeInscatter, R::EdgeTransmittance, R::EdgeRest}),
       Row(Pass::ServedEdges, "edges", "passes/edges.frag", S::Image)
           .reads({{R::EdgeRest, "sceneDepth"}})
           .into(Into::Destination)

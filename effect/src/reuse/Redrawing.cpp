@@ -98,7 +98,7 @@ void planChanged(LightPlanner& light, const KeptSlices& last, const LightRedraw&
   if (redraw.comparesEnds) {
     light.board[R::LastSampleEnds] = light.board[R::SampleEnds];
     light.endsSide = 1 - last.endsSide;
-    light.draw(Pass::SampleEnds);
+    light.draw(Pass::SampleEnds, {{{"KEEPS_ENDS", 1}}});
   }
   if (redraw.comparesRows) {
     light.board[R::LastRowDepths] = light.board[R::RowDepths];
@@ -124,7 +124,7 @@ void planAll(LightPlanner& light, Redrawing& frame) {
   frame.count.segments += segments;
   frame.count.changed += segments;
   light.selectDraw(0);
-  light.draw(Pass::SampleEnds);
+  light.draw(Pass::SampleEnds, {{{"KEEPS_ENDS", 0}}});
   if (light.draws() > 1) return;
   passes::rows::planDepths(light, passes::rows::Walk::Lit, true);
   passes::rows::planTree(light, passes::rows::Walk::Lit);
