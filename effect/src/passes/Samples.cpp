@@ -8,7 +8,7 @@ namespace {
 
 // Each sample's depth takes the place of the pixel's; of each comes its share of the light. Transmittance, as a mean,
 // and what is in the target come first, so that all samples are added.
-void planMean(LightPlanner& light, Pass pass, const DrawOptions& options) {
+void planMean(LightPlanner& light, Pass pass, DrawOptions options) {
   const int samples = light.paths.depthSamples, frameBlock = light.frameBlock, lightBlock = light.lightBlock;
   const gl::Uint depth = light.board[Resource::SceneDepth];
   const auto share = 1 / static_cast<float>(samples);
@@ -17,14 +17,13 @@ void planMean(LightPlanner& light, Pass pass, const DrawOptions& options) {
   lamp.lightColour *= share;
   camera.lightCeiling *= share;
   light.lightBlock = light.plan.add(lamp);
-  DrawOptions adding = options;
-  adding.blend = Blend::Add;
+  options.blend = Blend::Add;
   for (camera.depthSample = 0; camera.depthSample < samples; ++camera.depthSample) {
     light.frameBlock = light.plan.add(camera);
     light.draw(Pass::SampleDepth, {light.samplesOfDepth(), options.stencil});
     light.board[Resource::SceneDepth] = light.board[Resource::SampleDepth];
-    light.draw(pass, adding);
-    adding.counting = {}; // of pixels, not of samples
+    light.draw(pass, options);
+    options.counting = {}; // of pixels, not of samples
   }
   light.frameBlock = frameBlock;
   light.lightBlock = lightBlock;
@@ -61,15 +60,21 @@ void planRays(LightPlanner& light, Pass pass, DrawOptions options) {
   light.board = board;
 }
 
-} // namespace
-
-void drawLight(LightPlanner& light, Pass pass, const DrawOptions& options) {
+// As ever but at edges, which are drawn in a way of their own.
+void drawApart(LightPlanner& light, Pass pass, const DrawOptions& options,
+               void (*planEdges)(LightPlanner&, Pass, DrawOptions)) {
   if (!light.extent.sampledDepth) return light.drawLight(pass, options);
   DrawOptions off = options, on = options;
   off.stencil = offEdges(options.stencil);
   on.stencil = onEdges(options.stencil);
   light.drawLight(pass, off);
-  planMean(light, pass, on);
+  planEdges(light, pass, on);
+}
+
+} // namespace
+
+void drawLight(LightPlanner& light, Pass pass, const DrawOptions& options) {
+  drawApart(light, pass, options, planMean);
 }
 
 void unwarpEdges(LightPlanner& light) {
@@ -79,14 +84,7 @@ void unwarpEdges(LightPlanner& light) {
   light.draw(Pass::ServedEdges, marking);
 }
 
-void fixUp(LightPlanner& light, Pass pass, const DrawOptions& options) {
-  if (!light.extent.sampledDepth) return light.drawLight(pass, options);
-  DrawOptions off = options, on = options;
-  off.stencil = offEdges(options.stencil);
-  on.stencil = onEdges(options.stencil);
-  light.drawLight(pass, off);
-  planRays(light, pass, on);
-}
+void fixUp(LightPlanner& light, Pass pass, const DrawOptions& options) { drawApart(light, pass, options, planRays); }
 
 void addEdges(LightPlanner& light) {
   light.selectDraw(0);
