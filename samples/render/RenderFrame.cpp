@@ -51,30 +51,10 @@ double radicalInverse(int number, int base) {
   return result;
 }
 
-tyndall::Settings settingsOf(const Options& options) {
-  const auto profile = options.profile == "performance" ? tyndall::Profile::Performance
-                       : options.profile == "balanced"  ? tyndall::Profile::Balanced
-                       : options.profile == "high"      ? tyndall::Profile::High
-                                                        : tyndall::Profile::Reference;
-  tyndall::Settings settings = tyndall::settingsOf(profile);
-  settings.technique = options.technique == "exact"     ? tyndall::Technique::Exact
-                       : options.technique == "tree"    ? tyndall::Technique::Tree
-                       : options.technique == "lowrank" ? tyndall::Technique::LowRank
-                                                        : tyndall::Technique::Epipolar;
-  settings.debugView = options.view;
-  settings.shadowFilter = options.shadowFilter;
-  settings.slices = options.slices.value_or(settings.slices);
-  settings.samples = options.samples.value_or(settings.samples);
-  settings.rowStep = options.rowStep.value_or(settings.rowStep);
-  settings.minMaxTree = options.minMaxTree;
-  settings.breakThreshold = options.breakThreshold.value_or(settings.breakThreshold);
-  settings.bendThreshold = options.bendThreshold.value_or(settings.bendThreshold);
-  settings.leastWeight = options.leastWeight.value_or(settings.leastWeight);
-  settings.averageThreshold = options.averageThreshold.value_or(settings.averageThreshold);
-  settings.sampleBudget = options.sampleBudget.value_or(settings.sampleBudget);
-  settings.lowRankTerms = options.lowRankTerms.value_or(settings.lowRankTerms);
-  settings.spreadThreshold = options.spreadThreshold.value_or(settings.spreadThreshold);
-  return settings;
+tyndall::Medium mediumOf(const Options& options, const host::Scene& scene, host::Notes& notes) {
+  if (options.mediumFile) return host::loadMedium(*options.mediumFile);
+  if (options.medium) return *options.medium;
+  return host::mediumOf(scene, host::boundsOf(scene, host::poseAt(scene, 0)), notes);
 }
 
 tyndall::ClipDepth clipDepthOf(const Options& options) {
@@ -126,8 +106,7 @@ FrameRenderer::FrameRenderer(const Options& options)
   meshBounds_ = host::meshBounds(scene_);
   if (hasVolumes()) makeVolumeShadows();
 
-  const host::Bounds bounds = host::boundsOf(scene_, host::poseAt(scene_, 0));
-  frame_.medium = options.medium ? host::loadMedium(*options.medium) : host::mediumOf(scene_, bounds, notes_);
+  frame_.medium = mediumOf(options, scene_, notes_);
   frame_.viewport.width = surfaces_.width();
   frame_.viewport.height = surfaces_.height();
   frame_.colour = composite_.colour();
@@ -135,8 +114,8 @@ FrameRenderer::FrameRenderer(const Options& options)
   frame_.depth.multisampled = surfaces_.multisampled();
   frame_.output.inscatter = inscatter_.name();
   frame_.output.transmittance = transmittance_.name();
-  frame_.settings = settingsOf(options);
-  frame_.reuse.changes = options.changes;
+  frame_.settings = options.settings;
+  frame_.reuse = options.reuse;
 }
 
 tyndall::Camera FrameRenderer::makeCamera(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) const {
@@ -152,6 +131,10 @@ tyndall::Camera FrameRenderer::makeCamera(const std::vector<glm::dmat4>& worldFr
 
 std::vector<tyndall::Light> FrameRenderer::makeLights(const std::vector<glm::dmat4>& worldFromNode,
                                                       host::Notes& notes) const {
+  if (!options_.sun && options_.lights) {
+    host::Notes ofNoConcern;
+    return settings::lightsOf(*options_.lights, host::makeLights(scene_, worldFromNode, ofNoConcern));
+  }
   if (!options_.sun) return host::makeLights(scene_, worldFromNode, notes);
   tyndall::Light sun = host::makeSun(options_.sun->direction);
   if (options_.sun->colour) sun.colour = {options_.sun->colour->r, options_.sun->colour->g, options_.sun->colour->b};
@@ -193,7 +176,8 @@ void FrameRenderer::renderShadowMaps(const std::vector<glm::dmat4>& worldFromNod
   for (tyndall::Light& light : frame_.lights) {
     addOnce(notes, host::fitShadowViews(light, scene_, worldFromNode, frame_.camera, shadowOptions));
     if (light.shadow.views.empty()) continue;
-    if (light.shadow.views.size() > 1 && light.kind == tyndall::LightKind::Directional)
+    const bool isScene = options_.sun || !options_.lights;
+    if (isScene && light.shadow.views.size() > 1 && light.kind == tyndall::LightKind::Directional)
       light.cascadeFade = options_.cascadeFade;
     shadowMaps_.push_back(sceneRenderer_->renderShadowMap(worldFromNode, light, options_.shadowSize));
     shadowMaps_.back().attachTo(light);
@@ -322,7 +306,7 @@ void FrameRenderer::throwGlErrors() const {
 }
 
 void FrameRenderer::draw(int frame) {
-  const double seconds = frame / kFramesPerSecond;
+  const double seconds = options_.seconds + frame / kFramesPerSecond;
   const std::vector<glm::dmat4> worldFromNode = host::poseAt(scene_, seconds);
   host::Notes notes;
   frame_.camera = makeCamera(worldFromNode, notes);
@@ -340,7 +324,8 @@ void FrameRenderer::draw(int frame) {
   addOnce(notes_, notes);
   ++frame_.reuse.frame;
   frame_.objects.clear();
-  if (options_.changes == tyndall::Changes::Objects && !lastPose_.empty()) addMovedObjects(worldFromNode, seconds);
+  if (options_.reuse.changes == tyndall::Changes::Objects && !lastPose_.empty())
+    addMovedObjects(worldFromNode, seconds);
   lastPose_ = worldFromNode;
   lastSeconds_ = seconds;
   throwGlErrors();

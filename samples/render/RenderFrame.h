@@ -7,6 +7,7 @@
 #include <gl/Context.h>
 #include <gl/RenderTargets.h>
 #include <gl/SceneRenderer.h>
+#include <gl/ShadowLayout.h>
 #include <memory>
 #include <scene/Scene.h>
 #include <scene/View.h>
