@@ -1,0 +1,160 @@
+#include "SceneDrawer.h"
+
+#include <algorithm>
+#include <gl/Driver.h>
+#include <scene/Advice.h>
+#include <scene/MovedObjects.h>
+#include <scene/Projection.h>
+#include <scene/ShadowViews.h>
+#include <scene/Smoke.h>
+#include <scene/Strands.h>
+
+namespace render {
+
+namespace {
+
+/// Digits of a number after the point, in reverse.
+double radicalInverse(int number, int base) {
+  double result = 0, place = 1;
+  for (; number > 0; number /= base)
+    result += (place /= base) * (number % base);
+  return result;
+}
+
+// As for temporal antialiasing: after the shadow views were fitted, which do not follow.
+void jitterCamera(const settings::State& state, int frame, tyndall::Camera& camera) {
+  if (state.halton == 0) return;
+  const int place = frame % state.halton + 1;
+  camera.jitter = {radicalInverse(place, 2) - 0.5, radicalInverse(place, 3) - 0.5};
+  const glm::dvec3 ndc(2 * camera.jitter[0] / renderedWidth(state), 2 * camera.jitter[1] / renderedHeight(state), 0);
+  camera.clipFromView = host::toMat4(host::translation(ndc) * host::fromMat4(camera.clipFromView));
+}
+
+tyndall::ClipDepth clipDepthOf(const settings::State& state) {
+  return state.reversedDepth ? tyndall::ClipDepth::ZeroToOne : tyndall::ClipDepth::NegativeOneToOne;
+}
+
+} // namespace
+
+tyndall::PassTiming timingFor(const host::Context& context) {
+  return host::isSoftware(context.driver()) ? tyndall::PassTiming::Finish : tyndall::PassTiming::TimerQuery;
+}
+
+void addOnce(host::Notes& notes, const host::Notes& more) {
+  for (const std::string& note : more)
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+}
+
+SceneDrawer::SceneDrawer(host::Scene scene, const host::Context& context, const settings::State& state,
+                         host::Notes& notes)
+    : scene_(std::move(scene)), renderer_(std::make_unique<host::SceneRenderer>(scene_)),
+      meshBounds_(host::meshBounds(scene_)) {
+  if (hasVolumes()) makeVolumeShadows(context, state, notes);
+}
+
+bool SceneDrawer::hasVolumes() const { return !scene_.smoke.empty() || host::hasStrands(scene_); }
+
+void SceneDrawer::makeVolumeShadows(const host::Context& context, const settings::State& state, host::Notes& notes) {
+  if (!state.avsm) return;
+  constexpr int kNeeded = 43;
+  const int version = context.glVersion();
+  if (version >= kNeeded) {
+    volumeShadows_ =
+        std::make_unique<VolumeShadows>(context.loader(), timingFor(context), state.avsmSize, state.avsmNodes);
+    return;
+  }
+  notes.push_back("smoke and strands are drawn without their shadows: adaptive volumetric shadow maps need OpenGL "
+                  "4.3, and the context has " +
+                  std::to_string(version / 10) + "." + std::to_string(version % 10));
+}
+
+tyndall::Medium SceneDrawer::mediumOf(const settings::State& state, host::Notes& notes) const {
+  return state.medium ? *state.medium : host::mediumOf(scene_, host::boundsOf(scene_, host::poseAt(scene_, 0)), notes);
+}
+
+tyndall::Camera SceneDrawer::cameraOf(const settings::State& state, const std::vector<glm::dmat4>& worldFromNode,
+                                      host::Notes& notes) const {
+  const host::CameraOptions cameraOptions{state.reversedDepth, clipDepthOf(state)};
+  const double aspect = static_cast<double>(state.width) / state.height;
+  if (state.lookAt)
+    return host::makeLookAt(scene_, worldFromNode, state.lookAt->eye, state.lookAt->target, state.lookAt->fovDegrees,
+                            aspect, cameraOptions);
+  if (!state.camera && host::cameraNodes(scene_).empty())
+    return host::makeDefaultCamera(scene_, worldFromNode, aspect, cameraOptions, notes);
+  return host::makeCamera(scene_, worldFromNode, state.camera.value_or(0), aspect, cameraOptions);
+}
+
+std::vector<tyndall::Light> SceneDrawer::lightsOf(const settings::State& state, const Moment& moment,
+                                                  const std::vector<glm::dmat4>& worldFromNode,
+                                                  host::Notes& notes) const {
+  if (moment.sun) return {*moment.sun};
+  if (!state.lights) return host::makeLights(scene_, worldFromNode, notes);
+  host::Notes ofNoConcern;
+  return settings::lightsOf(*state.lights, host::makeLights(scene_, worldFromNode, ofNoConcern));
+}
+
+void SceneDrawer::drawMaps(const settings::State& state, const Moment& moment,
+                           const std::vector<glm::dmat4>& worldFromNode, tyndall::Frame& frame, host::Notes& notes) {
+  shadowMaps_.clear();
+  const bool cubeFaces = state.mapForm.layout == host::MapLayout::Cube;
+  const bool areScenes = moment.sun || !state.lights;
+  const host::ShadowOptions shadowOptions{state.reversedDepth, clipDepthOf(state), state.cascades, cubeFaces,
+                                          moment.seconds};
+  for (tyndall::Light& light : frame.lights) {
+    addOnce(notes, host::fitShadowViews(light, scene_, worldFromNode, frame.camera, shadowOptions));
+    if (light.shadow.views.empty()) continue;
+    const bool isCascaded = light.shadow.views.size() > 1 && light.kind == tyndall::LightKind::Directional;
+    if (isCascaded && areScenes) light.cascadeFade = state.cascadeFade;
+    shadowMaps_.push_back(renderer_->renderShadowMap(worldFromNode, light, state.shadowSize));
+    shadowMaps_.back().attachTo(light);
+  }
+  if (!hasVolumes()) return;
+  renderer_->setVolumes(host::smokeAt(scene_, moment.seconds), host::strandsAt(scene_, worldFromNode));
+  if (volumeShadows_) volumeShadows_->update(*renderer_, frame.lights);
+}
+
+// For the effect: surfaces read arrays.
+void SceneDrawer::layOutMaps(const settings::State& state, tyndall::Frame& frame) {
+  const host::MapForm& form = state.mapForm;
+  const bool isPlain = form.layout == host::MapLayout::Array && form.encoding == tyndall::DepthEncoding::Window;
+  if (isPlain) return;
+  if (!shadowLayout_ || mapForm_.layout != form.layout || mapForm_.encoding != form.encoding)
+    shadowLayout_ = std::make_unique<host::ShadowLayout>(form);
+  mapForm_ = form;
+  laidOutMaps_.clear();
+  for (tyndall::Light& light : frame.lights)
+    laidOutMaps_.push_back(shadowLayout_->layOut(light, state.shadowSize));
+}
+
+// Smoke moves in every frame: all of the box around it may dim the light anew.
+std::vector<tyndall::MovingObject> SceneDrawer::movedObjects(const std::vector<glm::dmat4>& worldFromNode,
+                                                             double seconds) const {
+  std::vector<tyndall::MovingObject> objects = host::movedObjects(scene_, meshBounds_, pose_, worldFromNode);
+  if (!volumeShadows_) return objects;
+  for (const host::SmokeEmitter& emitter : scene_.smoke)
+    objects.push_back(
+        host::movedBox(host::smokeBounds(scene_, emitter, seconds_), host::smokeBounds(scene_, emitter, seconds)));
+  return objects;
+}
+
+void SceneDrawer::draw(const settings::State& state, const Moment& moment, host::RenderTargets& surfaces,
+                       tyndall::Frame& frame, host::Notes& notes) {
+  const std::vector<glm::dmat4> worldFromNode = host::poseAt(scene_, moment.seconds);
+  frame.camera = cameraOf(state, worldFromNode, notes);
+  frame.lights = lightsOf(state, moment, worldFromNode, notes);
+  const glm::vec3 sky = host::skyOf(scene_, worldFromNode, frame.lights, notes);
+  drawMaps(state, moment, worldFromNode, frame, notes);
+  jitterCamera(state, moment.jitterPlace, frame.camera);
+  const bool isFirst = pose_.empty();
+  if (isFirst) addOnce(notes, host::adviceOn(scene_, worldFromNode, frame.camera));
+  renderer_->renderScene(worldFromNode, frame.camera, frame.lights, surfaces, sky, &frame.medium);
+  layOutMaps(state, frame);
+  ++frame.reuse.frame;
+  frame.objects.clear();
+  if (state.reuse.changes == tyndall::Changes::Objects && !isFirst)
+    frame.objects = movedObjects(worldFromNode, moment.seconds);
+  pose_ = worldFromNode;
+  seconds_ = moment.seconds;
+}
+
+} // namespace render
