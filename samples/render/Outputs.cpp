@@ -137,6 +137,14 @@ std::vector<std::uint8_t> displayed(const std::vector<float>& rgb, const Options
              : host::encodeColours(rgb.data(), options.width, options.height, options.supersample);
 }
 
+void requirePictureName(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  if (extension != ".exr" && extension != ".png")
+    throw host::Error(host::printable(file.string()) + ": must end in .exr or .png");
+}
+
 void writePicture(const std::filesystem::path& file, const Picture& picture, const Options& options, float exposure) {
   if (!isPng(file)) {
     host::writeExr(file, imageOf(picture, renderedWidth(options), renderedHeight(options)));

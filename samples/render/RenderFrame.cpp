@@ -50,7 +50,8 @@ Moment momentOf(const Options& options, int frame) {
   return moment;
 }
 
-/// Distances along the view axis. The scene's depth runs over (0, 1) whatever its direction.
+} // namespace
+
 std::vector<float> viewZ(std::vector<float> depth, const tyndall::Camera& camera, bool reversed) {
   const glm::dmat4 viewFromClip = glm::inverse(host::fromMat4(camera.clipFromView));
   const float sky = reversed ? 0.0F : 1.0F;
@@ -62,8 +63,6 @@ std::vector<float> viewZ(std::vector<float> depth, const tyndall::Camera& camera
   }
   return depth;
 }
-
-} // namespace
 
 double Measurement::median() const {
   const std::size_t count = milliseconds.size();
@@ -226,9 +225,9 @@ Picture FrameRenderer::readPicture() const {
   picture.composite = host::readColour(composite_.colour(), frame_.viewport.width, frame_.viewport.height);
   picture.inscatter = host::readColour(inscatter_.name(), frame_.viewport.width, frame_.viewport.height);
   picture.transmittance = host::readColour(transmittance_.name(), frame_.viewport.width, frame_.viewport.height);
-  picture.z = viewZ(host::readDepth((surfaces_.multisampled() ? composite_ : surfaces_).depth(), frame_.viewport.width,
-                                    frame_.viewport.height),
-                    frame_.camera, options_.reversedDepth);
+  const host::RenderTargets& targets = surfaces_.multisampled() ? composite_ : surfaces_;
+  picture.z =
+      viewZ(host::readDepth(targets.depth(), targets.width(), targets.height()), frame_.camera, options_.reversedDepth);
   throwGlErrors();
   return picture;
 }

@@ -25,6 +25,9 @@ struct Picture {
   std::vector<float> z;
 };
 
+/// Distances along the view axis, of depths as the scene's targets hold them, over (0, 1) whatever their direction.
+std::vector<float> viewZ(std::vector<float> depth, const tyndall::Camera& camera, bool reversed);
+
 /// What the effect did in one frame.
 struct Measurement {
   std::vector<double> milliseconds; ///< of each timed render, wall time around glFinish, ascending

@@ -34,6 +34,41 @@ tyndall::ClipDepth clipDepthOf(const settings::State& state) {
   return state.reversedDepth ? tyndall::ClipDepth::ZeroToOne : tyndall::ClipDepth::NegativeOneToOne;
 }
 
+template <typename Numbers>
+void append(std::vector<double>& key, const Numbers& numbers) {
+  for (const auto number : numbers)
+    key.push_back(static_cast<double>(number));
+}
+
+void append(std::vector<double>& key, const glm::dmat4& matrix) { append(key, host::toMat4(matrix)); }
+
+/// All that a light's maps depend on but the scene.
+void appendMapped(std::vector<double>& key, const tyndall::Light& light) {
+  append(key, light.position);
+  append(key, light.direction);
+  append(key, std::initializer_list<double>{static_cast<double>(light.kind), light.range, light.outerConeAngle,
+                                            static_cast<double>(light.shadow.clipDepth),
+                                            static_cast<double>(light.shadow.views.size())});
+  for (const tyndall::ShadowView& view : light.shadow.views)
+    append(key, view.clipFromWorld);
+}
+
+/// And its light on surfaces.
+void appendLit(std::vector<double>& key, const tyndall::Light& light) {
+  append(key, light.colour);
+  append(key, light.boundary.point);
+  append(key, light.boundary.normal);
+  append(key, std::initializer_list<double>{light.innerConeAngle, light.cascadeFade, double(light.litOutsideViews),
+                                            double(light.boundary.enabled)});
+}
+
+void append(std::vector<double>& key, const tyndall::Medium& medium) {
+  append(key, medium.absorption);
+  key.push_back(medium.farDistance);
+  for (const tyndall::Constituent& constituent : medium.constituents)
+    append(key, constituent.scattering);
+}
+
 } // namespace
 
 tyndall::PassTiming timingFor(const host::Context& context) {
@@ -93,24 +128,72 @@ std::vector<tyndall::Light> SceneDrawer::lightsOf(const settings::State& state, 
   return settings::lightsOf(*state.lights, host::makeLights(scene_, worldFromNode, ofNoConcern));
 }
 
-void SceneDrawer::drawMaps(const settings::State& state, const Moment& moment,
-                           const std::vector<glm::dmat4>& worldFromNode, tyndall::Frame& frame, host::Notes& notes) {
-  shadowMaps_.clear();
+void SceneDrawer::fitViews(const settings::State& state, const Moment& moment,
+                           const std::vector<glm::dmat4>& worldFromNode, tyndall::Frame& frame,
+                           host::Notes& notes) const {
   const bool cubeFaces = state.mapForm.layout == host::MapLayout::Cube;
   const bool areScenes = moment.sun || !state.lights;
   const host::ShadowOptions shadowOptions{state.reversedDepth, clipDepthOf(state), state.cascades, cubeFaces,
                                           moment.seconds};
   for (tyndall::Light& light : frame.lights) {
     addOnce(notes, host::fitShadowViews(light, scene_, worldFromNode, frame.camera, shadowOptions));
-    if (light.shadow.views.empty()) continue;
     const bool isCascaded = light.shadow.views.size() > 1 && light.kind == tyndall::LightKind::Directional;
     if (isCascaded && areScenes) light.cascadeFade = state.cascadeFade;
+  }
+}
+
+std::vector<double> SceneDrawer::mapsKeyOf(const settings::State& state, const Moment& moment,
+                                           const std::vector<glm::dmat4>& worldFromNode,
+                                           const std::vector<tyndall::Light>& lights) const {
+  std::vector<double> key = {static_cast<double>(state.shadowSize), static_cast<double>(lights.size())};
+  if (hasVolumes()) key.push_back(moment.seconds);
+  for (const glm::dmat4& matrix : worldFromNode)
+    append(key, matrix);
+  for (const tyndall::Light& light : lights)
+    appendMapped(key, light);
+  return key;
+}
+
+void SceneDrawer::drawMaps(const settings::State& state, const Moment& moment,
+                           const std::vector<glm::dmat4>& worldFromNode, tyndall::Frame& frame) {
+  std::vector<double> key = mapsKeyOf(state, moment, worldFromNode, frame.lights);
+  if (key == mapsKey_) {
+    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+      frame.lights[i].shadow = mappedLights_[i].shadow;
+      frame.lights[i].glass = mappedLights_[i].glass;
+      frame.lights[i].curves = mappedLights_[i].curves;
+    }
+    return;
+  }
+  mapsKey_.clear(); // of an attempt that fails
+  surfacesKey_.clear();
+  shadowMaps_.clear();
+  for (tyndall::Light& light : frame.lights) {
+    if (light.shadow.views.empty()) continue;
     shadowMaps_.push_back(renderer_->renderShadowMap(worldFromNode, light, state.shadowSize));
     shadowMaps_.back().attachTo(light);
   }
-  if (!hasVolumes()) return;
-  renderer_->setVolumes(host::smokeAt(scene_, moment.seconds), host::strandsAt(scene_, worldFromNode));
-  if (volumeShadows_) volumeShadows_->update(*renderer_, frame.lights);
+  if (hasVolumes()) {
+    renderer_->setVolumes(host::smokeAt(scene_, moment.seconds), host::strandsAt(scene_, worldFromNode));
+    if (volumeShadows_) volumeShadows_->update(*renderer_, frame.lights);
+  }
+  mappedLights_ = frame.lights;
+  mapsKey_ = std::move(key);
+}
+
+void SceneDrawer::drawSurfaces(const std::vector<glm::dmat4>& worldFromNode, const glm::vec3& sky,
+                               host::RenderTargets& surfaces, const tyndall::Frame& frame) {
+  std::vector<double> key = {static_cast<double>(surfaces.width()), static_cast<double>(surfaces.height())};
+  append(key, frame.camera.viewFromWorld);
+  append(key, frame.camera.clipFromView);
+  append(key, frame.medium);
+  append(key, std::initializer_list<double>{sky.r, sky.g, sky.b});
+  for (const tyndall::Light& light : frame.lights)
+    appendLit(key, light);
+  if (key == surfacesKey_) return;
+  surfacesKey_.clear();
+  renderer_->renderScene(worldFromNode, frame.camera, frame.lights, surfaces, sky, &frame.medium);
+  surfacesKey_ = std::move(key);
 }
 
 // For the effect: surfaces read arrays.
@@ -143,11 +226,12 @@ void SceneDrawer::draw(const settings::State& state, const Moment& moment, host:
   frame.camera = cameraOf(state, worldFromNode, notes);
   frame.lights = lightsOf(state, moment, worldFromNode, notes);
   const glm::vec3 sky = host::skyOf(scene_, worldFromNode, frame.lights, notes);
-  drawMaps(state, moment, worldFromNode, frame, notes);
+  fitViews(state, moment, worldFromNode, frame, notes);
+  drawMaps(state, moment, worldFromNode, frame);
   jitterCamera(state, moment.jitterPlace, frame.camera);
   const bool isFirst = pose_.empty();
   if (isFirst) addOnce(notes, host::adviceOn(scene_, worldFromNode, frame.camera));
-  renderer_->renderScene(worldFromNode, frame.camera, frame.lights, surfaces, sky, &frame.medium);
+  drawSurfaces(worldFromNode, sky, surfaces, frame);
   layOutMaps(state, frame);
   ++frame.reuse.frame;
   frame.objects.clear();

@@ -35,9 +35,13 @@ public:
   SceneDrawer(host::Scene scene, const host::Context& context, const settings::State& state, host::Notes& notes);
 
   /// Draws maps and surfaces, and fills in the frame's camera and lights and, by what moved since the last call, its
-  /// objects. Its textures live until the next call. Throws host::Error.
+  /// objects. Its textures live until the next call. What would be as at the last call is not drawn again. Throws
+  /// host::Error.
   void draw(const settings::State& state, const Moment& moment, host::RenderTargets& surfaces, tyndall::Frame& frame,
             host::Notes& notes);
+
+  /// The surfaces are to be drawn, whatever the targets hold.
+  void forgetSurfaces() { surfacesKey_.clear(); }
 
   /// The state's medium, or the scene's.
   tyndall::Medium mediumOf(const settings::State& state, host::Notes& notes) const;
@@ -52,8 +56,15 @@ public:
 private:
   std::vector<tyndall::Light> lightsOf(const settings::State& state, const Moment& moment,
                                        const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) const;
+  void fitViews(const settings::State& state, const Moment& moment, const std::vector<glm::dmat4>& worldFromNode,
+                tyndall::Frame& frame, host::Notes& notes) const;
+  std::vector<double> mapsKeyOf(const settings::State& state, const Moment& moment,
+                                const std::vector<glm::dmat4>& worldFromNode,
+                                const std::vector<tyndall::Light>& lights) const;
   void drawMaps(const settings::State& state, const Moment& moment, const std::vector<glm::dmat4>& worldFromNode,
-                tyndall::Frame& frame, host::Notes& notes);
+                tyndall::Frame& frame);
+  void drawSurfaces(const std::vector<glm::dmat4>& worldFromNode, const glm::vec3& sky, host::RenderTargets& surfaces,
+                    const tyndall::Frame& frame);
   void layOutMaps(const settings::State& state, tyndall::Frame& frame);
   void makeVolumeShadows(const host::Context& context, const settings::State& state, host::Notes& notes);
   bool hasVolumes() const;
@@ -65,6 +76,8 @@ private:
   std::unique_ptr<host::ShadowLayout> shadowLayout_; ///< none: the maps are the effect's as they are
   host::MapForm mapForm_;                            ///< of shadowLayout_
   std::vector<host::LaidOutMaps> laidOutMaps_;
+  std::vector<double> mapsKey_, surfacesKey_;    ///< all that they were drawn from; empty: nothing was
+  std::vector<tyndall::Light> mappedLights_;     ///< with the maps as they were drawn
   std::unique_ptr<VolumeShadows> volumeShadows_; ///< none without smoke and strands, or where they cast no shadow
   std::vector<host::Bounds> meshBounds_;
   std::vector<glm::dmat4> pose_;
