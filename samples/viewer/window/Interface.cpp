@@ -87,9 +87,10 @@ void Window::drawStatus() {
     text += isStepping ? fmt::format("drawing {:.0f} %", 100 * viewer_->first().share())
                        : fmt::format("{} {:.0f} ms", viewer_->isSettled() ? "full quality" : "adapted",
                                      viewer_->sceneMilliseconds() + viewer_->first().milliseconds());
-    if (!viewer_->meter().errors().empty())
-      text += fmt::format("   |   rRMSE {:.2g} %{}", 100 * viewer_->meter().errors()[0].rRmse,
-                          viewer_->isMeasured() ? "" : fmt::format(" ({:.0f} %)", 100 * viewer_->meter().share()));
+    if (viewer_->isMeasured())
+      text += fmt::format("   |   rRMSE {:.2g} %", 100 * viewer_->meter().errors()[0].rRmse);
+    else if (viewer_->meter().isRunning())
+      text += fmt::format("   |   measuring the error: {:.0f} %", 100 * viewer_->meter().share());
   }
   if (text.empty()) return;
   const Area area = areaOf(panelWidth_);

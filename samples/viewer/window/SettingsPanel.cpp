@@ -25,9 +25,9 @@ template <typename Owner, typename Part>
 void drawGroup(Viewer& viewer, const char* name, const char* group, const settings::Table<Owner>& table,
                const Owner& start, const Part& partOf, const std::vector<std::string>& hidden = {}) {
   settings::State state = viewer.state();
-  if (heading(name, isAtStart(table, partOf(state), start))) {
+  if (heading(name, isAtStart(table, partOf(state), start, hidden))) {
     for (const auto& row : table.rows)
-      if (std::find(hidden.begin(), hidden.end(), row.field) == hidden.end()) row.set(partOf(state), row.get(start));
+      if (!isAmong(hidden, row.field)) row.set(partOf(state), row.get(start));
     return viewer.edit(std::string("reset ") + group, state);
   }
   std::string field;

@@ -96,18 +96,20 @@ bool editBesides(const Row& row, Value& value, const Value& start) {
 }
 
 bool editThree(const Row& row, Value& value) {
-  if (row.type == Type::Colour) {
-    float rgb[3] = {static_cast<float>(value[0]), static_cast<float>(value[1]), static_cast<float>(value[2])};
-    const bool isChanged = ImGui::ColorEdit3(
-        "##value", rgb, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoOptions);
-    if (isChanged)
-      value = Value(settings::decimalOf(std::max(rgb[0], 0.0F)), settings::decimalOf(std::max(rgb[1], 0.0F)),
-                    settings::decimalOf(std::max(rgb[2], 0.0F)));
-    return isChanged;
-  }
-  const double size = std::max({std::abs(value[0]), std::abs(value[1]), std::abs(value[2]), 0.1});
-  return ImGui::DragScalarN("##value", ImGuiDataType_Double, value.numbers.data(), 3, static_cast<float>(0.01 * size),
-                            nullptr, nullptr, "%.3g");
+  const double size = std::max({std::abs(value[0]), std::abs(value[1]), std::abs(value[2])});
+  const bool isColour = row.type == Type::Colour;
+  if (isColour) ImGui::SetNextItemWidth(-ImGui::GetFrameHeight() - ImGui::GetStyle().ItemInnerSpacing.x);
+  const double least = 0, most = row.rule.high;
+  const bool isChanged = ImGui::DragScalarN("##value", ImGuiDataType_Double, value.numbers.data(), 3,
+                                            static_cast<float>(0.01 * std::max(size, 0.01)),
+                                            isColour ? &least : nullptr, isColour ? &most : nullptr, "%.3g");
+  if (!isColour) return isChanged;
+  const double scale = size > 0 ? 1 / size : 0;
+  const ImVec4 hue(static_cast<float>(scale * value[0]), static_cast<float>(scale * value[1]),
+                   static_cast<float>(scale * value[2]), 1);
+  ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+  ImGui::ColorButton("##hue", hue, ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop);
+  return isChanged;
 }
 
 bool editAny(const Row& row, Value& value, const Value& start) {
@@ -131,6 +133,10 @@ bool editAny(const Row& row, Value& value, const Value& start) {
 }
 
 } // namespace
+
+bool isAmong(const std::vector<std::string>& fields, const std::string& field) {
+  return std::find(fields.begin(), fields.end(), field) != fields.end();
+}
 
 ImTextureID imageOf(GLuint texture) { return (ImTextureID)(std::intptr_t)texture; }
 

@@ -21,16 +21,15 @@ void tooltip(const std::string& text);
 /// A heading with "reset" at its right; whether that was pressed.
 bool heading(const char* name, bool isAtStart);
 
+bool isAmong(const std::vector<std::string>& fields, const std::string& field);
+
 /// All rows of a table but those of `hidden`. Whether one was changed: `edited` is its field.
 template <typename Owner>
 bool editRows(const settings::Table<Owner>& table, Owner& owner, const Owner& start, std::string& edited,
               const std::vector<std::string>& hidden = {}) {
   bool isEdited = false;
   for (const settings::Setting<Owner>& row : table.rows) {
-    bool isHidden = false;
-    for (const std::string& field : hidden)
-      isHidden = isHidden || field == row.field;
-    if (isHidden) continue;
+    if (isAmong(hidden, row.field)) continue;
     settings::Value value = row.get(owner);
     if (!editValue(row, value, row.get(start))) continue;
     row.set(owner, value);
@@ -40,11 +39,12 @@ bool editRows(const settings::Table<Owner>& table, Owner& owner, const Owner& st
   return isEdited;
 }
 
-/// Whether all rows are as in `start`.
+/// Whether all rows but those are as in `start`.
 template <typename Owner>
-bool isAtStart(const settings::Table<Owner>& table, const Owner& owner, const Owner& start) {
+bool isAtStart(const settings::Table<Owner>& table, const Owner& owner, const Owner& start,
+               const std::vector<std::string>& hidden = {}) {
   for (const settings::Setting<Owner>& row : table.rows)
-    if (row.get(owner) != row.get(start)) return false;
+    if (row.get(owner) != row.get(start) && !isAmong(hidden, row.field)) return false;
   return true;
 }
 

@@ -110,7 +110,11 @@ void Window::setCallbacks() {
     windowOf(w).wake();
   });
   glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { windowOf(w).wake(); });
-  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { windowOf(w).wake(); });
+  // A press must find under the mouse what is there: so that is drawn before Dear ImGui knows of the press.
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
+    if (action == GLFW_PRESS) windowOf(w).drawInterface(button);
+    windowOf(w).wake();
+  });
   glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { windowOf(w).wake(); });
   glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { windowOf(w).wake(); });
   glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { windowOf(w).wake(); });
@@ -162,17 +166,18 @@ void Window::layOut() {
   viewer_->resize(pixelWidth - static_cast<int>(panelWidth_ * pixels), pixelHeight);
 }
 
-void Window::drawInterface() {
+void Window::drawInterface(int unknownPress) {
   layOut();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  if (unknownPress >= 0 && unknownPress < ImGuiMouseButton_COUNT) ImGui::GetIO().MouseDown[unknownPress] = false;
   ImGui::NewFrame();
   drawPicture();
   if (showsPanel_) drawPanel();
   drawStatus();
   drawHelp(*session_);
   if (const auto file = session_->dialog.draw()) takeFile(*file);
-  if (!ImGui::IsAnyItemActive()) viewer_->endEdit();
+  if (!ImGui::IsAnyItemActive() && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) viewer_->endEdit();
   ImGui::Render();
   int width = 0, height = 0;
   glfwGetFramebufferSize(window_, &width, &height);

@@ -32,7 +32,7 @@ private:
   void scroll(double steps);
   void waitForEvents(Activity activity);
   void layOut();
-  void drawInterface();
+  void drawInterface(int unknownPress = -1); ///< as if that button were not down
   void drawPicture();
   void drawStatus();
   void drawPanel();
