@@ -82,20 +82,26 @@ void addOnce(host::Notes& notes, const host::Notes& more) {
 
 SceneDrawer::SceneDrawer(host::Scene scene, const host::Context& context, const settings::State& state,
                          host::Notes& notes)
-    : scene_(std::move(scene)), renderer_(std::make_unique<host::SceneRenderer>(scene_)),
+    : context_(context), scene_(std::move(scene)), renderer_(std::make_unique<host::SceneRenderer>(scene_)),
       meshBounds_(host::meshBounds(scene_)) {
-  if (hasVolumes()) makeVolumeShadows(context, state, notes);
+  makeVolumeShadows(state, notes);
 }
 
 bool SceneDrawer::hasVolumes() const { return !scene_.smoke.empty() || host::hasStrands(scene_); }
 
-void SceneDrawer::makeVolumeShadows(const host::Context& context, const settings::State& state, host::Notes& notes) {
+// Again where the state has others.
+void SceneDrawer::makeVolumeShadows(const settings::State& state, host::Notes& notes) {
+  const bool isMade = avsm_.isOn == state.avsm && avsm_.size == state.avsmSize && avsm_.nodes == state.avsmNodes;
+  if (!hasVolumes() || isMade) return;
+  avsm_ = {state.avsm, state.avsmSize, state.avsmNodes};
+  volumeShadows_.reset();
+  mapsKey_.clear();
   if (!state.avsm) return;
   constexpr int kNeeded = 43;
-  const int version = context.glVersion();
+  const int version = context_.glVersion();
   if (version >= kNeeded) {
     volumeShadows_ =
-        std::make_unique<VolumeShadows>(context.loader(), timingFor(context), state.avsmSize, state.avsmNodes);
+        std::make_unique<VolumeShadows>(context_.loader(), timingFor(context_), state.avsmSize, state.avsmNodes);
     return;
   }
   notes.push_back("smoke and strands are drawn without their shadows: adaptive volumetric shadow maps need OpenGL "
@@ -222,6 +228,7 @@ std::vector<tyndall::MovingObject> SceneDrawer::movedObjects(const std::vector<g
 
 void SceneDrawer::draw(const settings::State& state, const Moment& moment, host::RenderTargets& surfaces,
                        tyndall::Frame& frame, host::Notes& notes) {
+  makeVolumeShadows(state, notes);
   const std::vector<glm::dmat4> worldFromNode = host::poseAt(scene_, moment.seconds);
   frame.camera = cameraOf(state, worldFromNode, notes);
   frame.lights = lightsOf(state, moment, worldFromNode, notes);

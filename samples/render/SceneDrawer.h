@@ -31,7 +31,7 @@ struct Moment {
 
 class SceneDrawer {
 public:
-  /// Uploads the scene in the current context. `state`: whether there are smoke's shadows, and how fine.
+  /// Uploads the scene in the current context, which outlives this.
   SceneDrawer(host::Scene scene, const host::Context& context, const settings::State& state, host::Notes& notes);
 
   /// Draws maps and surfaces, and fills in the frame's camera and lights and, by what moved since the last call, its
@@ -66,10 +66,17 @@ private:
   void drawSurfaces(const std::vector<glm::dmat4>& worldFromNode, const glm::vec3& sky, host::RenderTargets& surfaces,
                     const tyndall::Frame& frame);
   void layOutMaps(const settings::State& state, tyndall::Frame& frame);
-  void makeVolumeShadows(const host::Context& context, const settings::State& state, host::Notes& notes);
+  void makeVolumeShadows(const settings::State& state, host::Notes& notes);
   bool hasVolumes() const;
   std::vector<tyndall::MovingObject> movedObjects(const std::vector<glm::dmat4>& worldFromNode, double seconds) const;
 
+  /// Of smoke's shadows, as State has them.
+  struct Avsm {
+    bool isOn = false;
+    int size = 0, nodes = 0;
+  };
+
+  const host::Context& context_;
   host::Scene scene_;
   std::unique_ptr<host::SceneRenderer> renderer_;
   std::vector<host::ShadowMapTextures> shadowMaps_;
@@ -79,6 +86,7 @@ private:
   std::vector<double> mapsKey_, surfacesKey_;    ///< all that they were drawn from; empty: nothing was
   std::vector<tyndall::Light> mappedLights_;     ///< with the maps as they were drawn
   std::unique_ptr<VolumeShadows> volumeShadows_; ///< none without smoke and strands, or where they cast no shadow
+  Avsm avsm_;                                    ///< that they were made with
   std::vector<host::Bounds> meshBounds_;
   std::vector<glm::dmat4> pose_;
   double seconds_ = 0; ///< of the pose

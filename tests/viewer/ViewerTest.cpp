@@ -180,6 +180,56 @@ TEST_CASE("a frame that the effect refuses is a message once, and the next edit 
   CHECK(rig.error().empty());
 }
 
+TEST_CASE("a camera that the scene does not have is a message, and the view can be moved on") {
+  tests::ViewerRig rig;
+  rig.load("projector");
+  rig.settle();
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "tyndall-camera.json";
+  settings::State state = rig.viewer.state();
+  state.camera = 77;
+  settings::saveState(file, state);
+  rig.viewer.openState(file);
+  rig.runUntil([&] { return rig.last == Activity::Idle; });
+  CHECK_THAT(rig.error(), Catch::Contains("camera"));
+  rig.viewer.setView(viewer::orbited(rig.viewer.view(), 0.1, 0));
+  rig.settle();
+  CHECK(rig.error().empty());
+  std::filesystem::remove(file);
+}
+
+TEST_CASE("smoke's shadows follow their settings") {
+  tests::ViewerRig rig;
+  rig.load("smoke");
+  rig.settle();
+  const auto inscatter = [&] {
+    rig.settle();
+    CHECK(rig.error().empty());
+    return host::readColour(rig.viewer.first().inscatter(), 96, 54);
+  };
+  const std::vector<float> with = inscatter();
+  settings::State state = rig.viewer.state();
+  state.avsm = false;
+  rig.viewer.edit("avsm", state);
+  CHECK(inscatter() != with);
+  state.avsm = true;
+  rig.viewer.edit("avsm again", state);
+  CHECK(inscatter() == with);
+}
+
+TEST_CASE("samples of a pixel may be any number that is offered") {
+  tests::ViewerRig rig;
+  rig.load("projector");
+  for (const int samples : {2, 4, 8, 1}) {
+    settings::State state = rig.viewer.state();
+    state.msaa = samples;
+    rig.viewer.edit("msaa", state);
+    rig.settle();
+    CHECK(rig.error().empty());
+    CHECK(rig.viewer.surfaces().multisampled() == (samples > 1));
+    CHECK(rig.viewer.pixelAt(0.5, 0.5).distance > 0);
+  }
+}
+
 TEST_CASE("any setting may be changed at any time") {
   tests::ViewerRig rig(64, 36);
   rig.load("projector");

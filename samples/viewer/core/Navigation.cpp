@@ -45,7 +45,7 @@ LookAt lookAtOf(const tyndall::Camera& camera, double distance) {
   view.target = view.eye - distance * glm::normalize(glm::dvec3(worldFromView[2]));
   const double degrees = std::clamp(glm::degrees(2 * std::atan(halfHeight)), 1.0, 170.0);
   view.fovDegrees = std::round(degrees * 1e9) / 1e9; // what a person wrote, without the rounding of matrices
-  return turned(view, 0, 0); // which leaves out what is too steep
+  return turned(view, 0, 0);                         // which leaves out what is too steep
 }
 
 LookAt orbited(const LookAt& view, double right, double up) {

@@ -145,13 +145,21 @@ void Viewer::resize(int width, int height) {
   changed();
 }
 
+tyndall::Camera Viewer::sceneCamera(const std::vector<glm::dmat4>& pose) const {
+  host::Notes ofNoConcern;
+  try {
+    return drawer_->cameraOf(history_.state(), pose, ofNoConcern);
+  } catch (const host::Error&) { // which is said when it is drawn
+    return host::makeDefaultCamera(drawer_->scene(), pose, 1, {}, ofNoConcern);
+  }
+}
+
 LookAt Viewer::view() const {
   const settings::State& state = history_.state();
   if (state.lookAt || !drawer_) return state.lookAt.value_or(LookAt());
-  host::Notes ofNoConcern;
   const std::vector<glm::dmat4> pose = host::poseAt(drawer_->scene(), state.seconds);
   const host::Bounds bounds = host::boundsOf(drawer_->scene(), pose);
-  const tyndall::Camera camera = drawer_->cameraOf(state, pose, ofNoConcern);
+  const tyndall::Camera camera = sceneCamera(pose);
   const LookAt near = lookAtOf(camera, 1);
   const glm::dvec3 middle = 0.5 * (bounds.low + bounds.high);
   const double toMiddle = glm::dot(middle - near.eye, glm::normalize(near.target - near.eye));

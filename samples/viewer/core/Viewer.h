@@ -113,6 +113,7 @@ private:
   void say(const std::string& text, bool isError = false) { message_ = Message{text, isError}; }
   tyndall::Config configOf() const;
   void makeWays();
+  tyndall::Camera sceneCamera(const std::vector<glm::dmat4>& pose) const;
   render::Picture readPicture() const;
   void takeScene(SceneLoader::Result result);
   void advance(double passed);
@@ -137,6 +138,7 @@ private:
   std::optional<tyndall::Settings> compared_;
   std::unique_ptr<render::SceneDrawer> drawer_;
   std::unique_ptr<host::RenderTargets> surfaces_;
+  int samples_ = 1; ///< of a pixel of the surfaces
   std::unique_ptr<Way> first_, second_;
   tyndall::Tuning tuning_; ///< that the ways were made with
   ErrorMeter meter_;

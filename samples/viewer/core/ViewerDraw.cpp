@@ -88,9 +88,9 @@ Activity Viewer::proceed(double now) {
 
 void Viewer::prepareTargets(const settings::State& state) {
   const int width = renderedWidth(state), height = renderedHeight(state);
-  if (surfaces_ && surfaces_->width() == width && surfaces_->height() == height &&
-      surfaces_->multisampled() == (state.msaa > 1))
-    return;
+  const bool isSized = surfaces_ && surfaces_->width() == width && surfaces_->height() == height;
+  if (isSized && samples_ == state.msaa) return;
+  samples_ = state.msaa;
   surfaces_ = std::make_unique<host::RenderTargets>(
       host::RenderTargetOptions{width, height, GL_RGBA32F, GL_DEPTH_COMPONENT32F, state.msaa});
   drawer_->forgetSurfaces();
