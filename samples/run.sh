@@ -1,5 +1,6 @@
 #!/bin/sh
-# Installs packages, builds tyndall-render and the sample scenes, and renders the README's gallery into out/gallery.
+# Installs packages, builds tyndall-render, tyndall-viewer and the sample scenes, and renders the README's gallery into
+# out/gallery.
 set -eu
 cd "$(dirname "$0")/.."
 # shellcheck source=samples/setup.sh
@@ -12,6 +13,11 @@ say "Building into build/"
 # A build of tests/run.sh keeps its tests; without one, what only tests need is not asked for.
 cmake -S . -B build -G Ninja -DTYNDALL_BUILD_SAMPLES=ON
 cmake --build build --target tyndall-render tyndall_scenes
+viewer=
+if cmake --build build --target help | grep -q '^tyndall-viewer:'; then
+  cmake --build build --target tyndall-viewer
+  viewer=" Play with them: build/bin/tyndall-viewer build/scenes/nave.glb"
+fi
 
 # picture SCENE [OPTION...]: 960x540 pixels, each the mean of 2x2. Fails where a scene lacks light, camera or medium.
 picture() {
@@ -37,4 +43,4 @@ picture orrery
 picture smoke
 picture hair
 picture censer
-say "Done: look at out/gallery/"
+say "Done: look at out/gallery/.$viewer"

@@ -31,7 +31,7 @@ install_packages() {
 
 # shellcheck disable=SC2034 # used where this is sourced
 build_packages="g++ cmake ninja-build pkg-config libglm-dev libeigen3-dev libstb-dev nlohmann-json3-dev
-  libopenexr-dev libpng-dev libcli11-dev libfmt-dev libglfw3-dev libegl-dev libgl-dev libosmesa6? libegl1 libegl-mesa0
+  libopenexr-dev libpng-dev libcli11-dev libfmt-dev libglfw3-dev libimgui-dev? libegl-dev libgl-dev libosmesa6? libegl1 libegl-mesa0
   libgl1-mesa-dri libglx-mesa0"
 # shellcheck disable=SC2034
 test_packages="catch2 libembree-dev python3-numpy python3-matplotlib"
@@ -41,4 +41,4 @@ clang_version=19
 # shellcheck disable=SC2034
 all_packages="clang-$clang_version llvm-$clang_version clang-format-$clang_version clang-tidy-$clang_version
   libclang-rt-$clang_version-dev glslang-tools xvfb xauth g++-mingw-w64-x86-64 wine wine64 chromium munge slurmctld slurmd
-  slurm-client ffmpeg xz-utils libogre-1.12-dev?"
+  slurm-client ffmpeg xz-utils xdotool libogre-1.12-dev?"

@@ -25,6 +25,20 @@ std::unique_ptr<NativeContext> createNative(ContextKind kind, const ContextOptio
   throw Error("context: unknown kind");
 }
 
+/// A window's, which outlives it.
+class AdoptedContext final : public NativeContext {
+public:
+  AdoptedContext(Context::Loader resolve, std::function<void(bool)> setCurrent)
+      : loader_(resolve), setCurrent_(std::move(setCurrent)) {}
+  void bind() override { setCurrent_(true); }
+  void unbind() override { setCurrent_(false); }
+  Context::Loader loader() const override { return loader_; }
+
+private:
+  Context::Loader loader_;
+  std::function<void(bool)> setCurrent_;
+};
+
 /// What the shader compiler says comes with the compile status, to those who asked for it.
 void collectMessage(GLenum source, GLenum type, GLuint /*id*/, GLenum severity, GLsizei /*length*/,
                     const GLchar* message, const void* messages) {
@@ -103,7 +117,16 @@ std::unique_ptr<Context> Context::create(ContextKind kind, const ContextOptions&
   if (currentContext) {
     currentContext->releaseCurrent();
   }
-  std::unique_ptr<Context> context(new Context(kind, options.profile, createNative(kind, options)));
+  return begin(std::unique_ptr<Context>(new Context(kind, options.profile, createNative(kind, options))), options);
+}
+
+std::unique_ptr<Context> Context::adopt(Loader loader, std::function<void(bool)> setCurrent,
+                                        const ContextOptions& options) {
+  auto native = std::make_unique<AdoptedContext>(loader, std::move(setCurrent));
+  return begin(std::unique_ptr<Context>(new Context(ContextKind::Glfw, options.profile, std::move(native))), options);
+}
+
+std::unique_ptr<Context> Context::begin(std::unique_ptr<Context> context, const ContextOptions& options) {
   context->makeCurrent();
   context->loadFunctions();
   if (options.debug) {

@@ -1,6 +1,7 @@
 // OpenGL contexts without a window: OSMesa, surfaceless EGL and a hidden GLFW window, chosen at run time.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,6 +42,10 @@ public:
 
   /// The new context is current on return. Throws host::Error with one line if there is none to be had.
   static std::unique_ptr<Context> create(ContextKind kind, const ContextOptions& options = {});
+  /// For a context of a window that the caller has made: setCurrent(true) makes it current in this thread, with false
+  /// none is. Current on return.
+  static std::unique_ptr<Context> adopt(Loader loader, std::function<void(bool)> setCurrent,
+                                        const ContextOptions& options = {});
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
@@ -61,6 +66,7 @@ public:
 
 private:
   Context(ContextKind kind, ContextProfile profile, std::unique_ptr<NativeContext> native);
+  static std::unique_ptr<Context> begin(std::unique_ptr<Context> context, const ContextOptions& options);
   void loadFunctions();
   void loadEmbedded();
   void collectMessages();

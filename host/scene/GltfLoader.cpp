@@ -46,10 +46,13 @@ void readTyndallExtras(gltf::Document& document, Scene& scene) {
   }
 }
 
-Scene convert(gltf::Document& document) {
+Scene convert(gltf::Document& document, const LoadWatch& watch) {
   Scene scene;
+  watch("textures", 0.3);
   const std::vector<gltf::TextureCoordinates> coordinates = gltf::convertMaterials(document, scene);
+  watch("meshes", 0.6);
   gltf::convertMeshes(document, coordinates, scene);
+  watch("nodes", 0.95);
   gltf::convertCameras(document, scene);
   gltf::convertLights(document, scene);
   const std::vector<int> sceneNodes = gltf::convertNodes(document, scene);
@@ -64,12 +67,19 @@ Scene convert(gltf::Document& document) {
 } // namespace
 
 Scene loadScene(const std::filesystem::path& file) {
+  return loadScene(file, [](const char*, double) {});
+}
+
+Scene loadScene(const std::filesystem::path& file, const LoadWatch& watch) {
   gltf::Document document(file);
   try {
+    watch("file", 0);
     gltf::readContainer(document);
+    watch("checks", 0.1);
     gltf::check(document);
+    watch("buffers", 0.2);
     gltf::loadBuffers(document);
-    return convert(document);
+    return convert(document, watch);
   } catch (const nlohmann::json::exception& error) {
     document.refuse("JSON", error.what());
   } catch (const std::bad_alloc&) {

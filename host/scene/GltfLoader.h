@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <scene/Scene.h>
 
 namespace host {
@@ -12,5 +13,9 @@ namespace host {
 /// Buffers, images and unrolled geometry are bounded, so that a broken file can neither hang the loader nor fill
 /// memory.
 Scene loadScene(const std::filesystem::path& file);
+
+/// What is being done, and the share that is done before it. What it throws ends the loading.
+using LoadWatch = std::function<void(const char* stage, double share)>;
+Scene loadScene(const std::filesystem::path& file, const LoadWatch& watch);
 
 } // namespace host

@@ -72,7 +72,7 @@ std::uint8_t toSrgb8(float linear) {
 /// The largest channel takes the film curve and the others keep their ratio to it, so that hues hold. What the curve
 /// took off the peak then fades the colour to white, as in Khronos' PBR Neutral tone mapper.
 /// Display-linear, 0 to 1.
-glm::vec3 toneMapPixel(const float* rgb, float exposure) {
+glm::vec3 toneMapPixel(const float* rgb, float exposure, Tone tone) {
   constexpr float kBrightest = 1e6F; // keeps infinities out of the ratios
   constexpr float kDesaturation = 0.15F;
   float scaled[3];
@@ -82,6 +82,8 @@ glm::vec3 toneMapPixel(const float* rgb, float exposure) {
     scaled[c] = std::clamp(value, 0.0F, kBrightest);
   }
   const float peak = std::max({scaled[0], scaled[1], scaled[2]});
+  if (tone == Tone::Clip) return glm::min(glm::vec3(scaled[0], scaled[1], scaled[2]), 1.0F);
+  if (tone == Tone::Reinhard) return glm::vec3(scaled[0], scaled[1], scaled[2]) / (1 + peak);
   const float mapped = filmic(peak);
   const float white = 1 - 1 / (kDesaturation * std::max(peak - mapped, 0.0F) + 1);
   glm::vec3 colour(0);
@@ -225,9 +227,9 @@ bool isWholePng(const std::filesystem::path& file, int width, int height) {
   return isRead && image.warning_or_error == 0;
 }
 
-std::vector<std::uint8_t> toneMap(const float* rgb, int width, int height, float exposure, int supersample) {
+std::vector<std::uint8_t> toneMap(const float* rgb, int width, int height, float exposure, int supersample, Tone tone) {
   return encode(rgb, width, height, supersample,
-                [exposure](const float* pixel) { return toneMapPixel(pixel, exposure); });
+                [=](const float* pixel) { return toneMapPixel(pixel, exposure, tone); });
 }
 
 std::vector<std::uint8_t> encodeColours(const float* rgb, int width, int height, int supersample) {

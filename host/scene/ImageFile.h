@@ -44,11 +44,19 @@ void writePng(const std::filesystem::path& file, int width, int height, const st
 /// Whether the file is a PNG of this size that can be read to its end.
 bool isWholePng(const std::filesystem::path& file, int width, int height);
 
-/// Linear radiance, three floats a pixel, to sRGB bytes in the same order: exposure, a filmic curve, the sRGB transfer
-/// function. Hues hold while highlights fade to white. A pixel with a NaN becomes magenta.
+/// How radiance becomes what a screen shows.
+enum class Tone {
+  Film,     ///< a filmic curve; hues hold while highlights fade to white
+  Reinhard, ///< x / (1 + x) of the brightest channel
+  Clip,     ///< cut off at 1
+};
+
+/// Linear radiance, three floats a pixel, to sRGB bytes in the same order: exposure, the curve, the sRGB transfer
+/// function. A pixel with a NaN becomes magenta.
 /// The result has width x height pixels, each the mean of supersample x supersample pixels of `rgb` after the curve, as
 /// a display would show them: bright edges are smooth, too.
-std::vector<std::uint8_t> toneMap(const float* rgb, int width, int height, float exposure = 1, int supersample = 1);
+std::vector<std::uint8_t> toneMap(const float* rgb, int width, int height, float exposure = 1, int supersample = 1,
+                                  Tone tone = Tone::Film);
 
 /// The same for colours that mean numbers: cut off at 0 and 1, the sRGB transfer function, no exposure, no curve.
 std::vector<std::uint8_t> encodeColours(const float* rgb, int width, int height, int supersample = 1);

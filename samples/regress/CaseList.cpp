@@ -133,7 +133,7 @@ Case caseOf(const Json& json, const Defaults& defaults, const std::filesystem::p
   } catch (const render::UsageError& error) {
     throw host::Error(where + ": " + error.what());
   }
-  if (result.options.medium) result.options.medium = list.parent_path() / *result.options.medium;
+  if (result.options.mediumFile) result.options.mediumFile = list.parent_path() / *result.options.mediumFile;
   return result;
 }
 

@@ -133,7 +133,7 @@ std::string inputsOf(const Case& one, const References& references) {
   const Tolerance& t = one.tolerance;
   digest.add(fmt::format("{} {} {} {} {} {}", t.rRmse, t.p99, t.max, t.pixel, t.over, t.flip.value_or(-1)));
   digest.addFile(one.options.scene);
-  if (one.options.medium) digest.addFile(*one.options.medium);
+  if (one.options.mediumFile) digest.addFile(*one.options.mediumFile);
   digest.add(fmt::format("{}", references.digestOf(one.name)));
   return digest.text();
 }

@@ -1,43 +1,20 @@
 #include "Options.h"
-#include "OptionRules.h"
-#include "TuningOptions.h"
+#include "SettingOptions.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <scene/Error.h>
 #include <scene/ProgramFiles.h>
+#include <settings/StateFile.h>
 #include <tuple>
 
 namespace render {
 
 namespace {
 
-const std::vector<std::string> kProfiles = {"performance", "balanced", "high", "reference"};
-const std::vector<std::string> kTechniques = {"exact", "tree", "epipolar", "lowrank"};
-const Names<tyndall::DebugView> kViews = {{"composite", tyndall::DebugView::Composite},
-                                          {"slices", tyndall::DebugView::Slices},
-                                          {"samples", tyndall::DebugView::Samples},
-                                          {"breaks", tyndall::DebugView::Breaks},
-                                          {"march-samples", tyndall::DebugView::MarchSamples},
-                                          {"fixup-pixels", tyndall::DebugView::FixupPixels},
-                                          {"node-visits", tyndall::DebugView::NodeVisits},
-                                          {"inscatter", tyndall::DebugView::Inscatter},
-                                          {"transmittance", tyndall::DebugView::Transmittance},
-                                          {"difference", tyndall::DebugView::Difference},
-                                          {"redrawn", tyndall::DebugView::Redrawn},
-                                          {"inputs", tyndall::DebugView::Inputs}};
-const Names<tyndall::ShadowFilter> kFilters = {{"nearest", tyndall::ShadowFilter::Nearest},
-                                               {"bilinear", tyndall::ShadowFilter::Bilinear}};
-const Names<host::MapLayout> kLayouts = {
-    {"array", host::MapLayout::Array}, {"atlas", host::MapLayout::Atlas}, {"cube", host::MapLayout::Cube}};
-const Names<tyndall::DepthEncoding> kEncodings = {{"window", tyndall::DepthEncoding::Window},
-                                                  {"axial", tyndall::DepthEncoding::Axial},
-                                                  {"radial", tyndall::DepthEncoding::Radial}};
-const Names<bool> kSwitch = {{"on", true}, {"off", false}};
 constexpr int kMaxFrame = 999999;
 constexpr int kMaxRepeat = 10000;
-constexpr int kMaxSupersample = 8;
-constexpr int kMaxHalton = 1024;
 constexpr const char* kFramePlace = "%04d";
 
 constexpr const char* kFooter = R"(
@@ -58,6 +35,9 @@ Shares
   for bit. The exposure is that of the first of --frames in each. With --resume a run goes on where one was ended: a
   picture is whole if all of it can be read and its size and channels are those asked for; options are not compared.
   --missing prints "3-7,12", say, and ends with 1, or prints nothing and ends with 0.
+States
+  --state takes what the viewer saves: scene, camera, lights, medium, picture and all settings, as JSON; what is left out
+  is at its default. --lights and --medium take parts of it as they are there: '{"absorption": [0.01, 0.01, 0.01]}'.
 Program cache
   Linked programs are kept in $XDG_CACHE_HOME/tyndall/programs, ~/.cache/tyndall/programs by default, at most 64 MiB:
   what was not used for the longest time goes. Where that folder cannot be written, none are kept.
@@ -66,7 +46,10 @@ Exit status
 
 /// What does not go into the options as it is.
 struct Given {
-  LookAt lookAt;
+  settings::LookAt lookAt;
+  std::optional<int> camera;
+  std::filesystem::path scene;
+  Overrides profile, overrides; ///< in this order
   bool noReuse = false, detectChanges = false, noProgramCache = false;
 };
 
@@ -127,12 +110,8 @@ void checkOutputs(const Options& options) {
   }
 }
 
-CLI::Validator aboveZero(double most) {
-  return numberThat(fmt::format("must be above 0, at most {}", most), [most](double x) { return x > 0 && x <= most; });
-}
-
-void addView(CLI::App& app, Options& options, LookAt& lookAt) {
-  auto* camera = app.add_option("--camera", options.camera, "the N-th camera of the scene, from 0 (default 0)")
+void addCamera(CLI::App& app, Given& given) {
+  auto* camera = app.add_option("--camera", given.camera, "the N-th camera of the scene, from 0 (default 0)")
                      ->check(CLI::Range(0, kMaxFrame));
   const auto addPoint = [&](const char* name, glm::dvec3& point, const char* help) {
     return app
@@ -140,92 +119,84 @@ void addView(CLI::App& app, Options& options, LookAt& lookAt) {
             name, [name, &point](const std::string& text) { point = parsePoint(name, text); }, help)
         ->type_name("X,Y,Z");
   };
-  auto* eye = addPoint("--eye", lookAt.eye, "look from here instead")->excludes(camera);
-  auto* target = addPoint("--target", lookAt.target, "at this point, y up")->needs(eye);
+  const auto& rows = settings::lookAtTable();
+  auto* eye = addPoint("--eye", given.lookAt.eye, rows["eye"].help.c_str())->excludes(camera);
+  auto* target = addPoint("--target", given.lookAt.target, rows["target"].help.c_str())->needs(eye);
   eye->needs(target);
-  app.add_option("--fov", lookAt.fovDegrees, "vertical angle of that view, in degrees (default 50)")
-      ->check(numberThat("must be between 0 and 180 degrees", [](double x) { return x > 0 && x < 180; }))
+  app.add_option("--fov", given.lookAt.fovDegrees, rows["fovDegrees"].help + " (default 50)")
+      ->check(numberThat("must be" + settings::rangeOf(rows["fovDegrees"].rule) + " degrees",
+                         [](double x) { return x > 0 && x < 180; }))
       ->needs(eye);
+}
+
+/// Text of a part of a state, as JSON, from which `parse` makes it.
+template <typename Parse>
+auto parsedPart(const std::string& option, const std::string& text, const Parse& parse) {
+  try {
+    return parse(text, option);
+  } catch (const host::Error& error) {
+    throw UsageError(error.what());
+  }
+}
+
+void addLights(CLI::App& app, Options& options, Given& given) {
+  auto* sun = app.add_option_function<std::string>(
+                     "--sun", [&](const std::string& text) { options.sun = parseSun(text); },
+                     "a sun instead of the scene's lights: where its light travels to, and irradiance")
+                  ->type_name("DX,DY,DZ[,R,G,B]");
   app.add_option_function<std::string>(
-         "--sun", [&](const std::string& text) { options.sun = parseSun(text); },
-         "a sun instead of the scene's lights: where its light travels to, and irradiance")
-      ->type_name("DX,DY,DZ[,R,G,B]");
+         "--lights",
+         [&given](const std::string& text) {
+           const auto lights = parsedPart("--lights", text, settings::parseLights);
+           given.overrides.emplace_back([lights](settings::State& state) { state.lights = lights; });
+         },
+         "lights instead of the scene's: a list as in state files")
+      ->type_name("JSON")
+      ->excludes(sun);
+  app.add_option_function<std::string>(
+         "--medium",
+         [&](const std::string& text) {
+           if (text.front() != '{') {
+             options.mediumFile = text;
+             return;
+           }
+           const auto medium = parsedPart("--medium", text, settings::parseMedium);
+           given.overrides.emplace_back([medium](settings::State& state) { state.medium = medium; });
+         },
+         "the medium, instead of the scene's: a file, or a medium as in state files")
+      ->type_name("M.json");
+}
+
+void addState(CLI::App& app, Options& options, Given& given) {
+  app.add_option("--state", options.stateFile,
+                 "scene, view and settings of the viewer's; what is given besides wins over it")
+      ->type_name("STATE.json");
+  addCamera(app, given);
+  addLights(app, options, given);
   app.add_option_function<std::string>(
          "--size",
-         [&](const std::string& text) { std::tie(options.width, options.height) = parseSize("--size", text, 1); },
+         [&](const std::string& text) {
+           const auto size = parseSize("--size", text, 1);
+           given.overrides.emplace_back([size](settings::State& state) { std::tie(state.width, state.height) = size; });
+         },
          "pixels (default 1280x720)")
       ->type_name("WxH");
-  app.add_option("--supersample", options.supersample, "render N x N pixels for each one of the picture (default 1)")
-      ->check(CLI::Range(1, kMaxSupersample));
-  app.add_option("--msaa", options.msaa, "samples of a pixel, of colour and depth (default 1)")
-      ->check(CLI::IsMember({1, 2, 4, 8}));
-  app.add_option("--halton", options.halton,
-                 "jitter the camera, from frame to frame, by N points of Halton's in a pixel (default 0: none)")
-      ->check(CLI::Range(0, kMaxHalton));
-  chooseFrom(kViews, app.add_option("--view", options.view, "a debug view instead of the composite, see below"));
-}
-
-void addQuality(CLI::App& app, Options& options) {
-  app.add_option("--profile", options.profile, "quality (default high)")
-      ->check(CLI::IsMember(kProfiles))
-      ->type_name("NAME");
-  app.add_option("--technique", options.technique, "by the profile if not given")
-      ->check(CLI::IsMember(kTechniques))
-      ->type_name("NAME");
-  app.add_option("--slices", options.slices, "epipolar lines; by the profile if not given")->check(CLI::Range(1, 8192));
-  app.add_option("--samples", options.samples, "samples of a slice, a multiple of 64; by the profile if not given")
-      ->check(CLI::Range(64, 8192))
-      ->check(numberThat("must be a multiple of 64", [](double x) { return std::fmod(x, 64) == 0; }));
-  app.add_option("--row-step", options.rowStep,
-                 "shadow texels from one sample of a row to the next; by the profile if not given")
-      ->check(CLI::Range(1, 8));
-  chooseFrom(kSwitch,
-             app.add_option("--tree", options.minMaxTree, "skip along rows by their min/max tree (default on)"));
-  app.add_option("--break-threshold", options.breakThreshold, "change of distance that counts as a depth break")
-      ->check(aboveZero(1e6));
-  app.add_option("--bend-threshold", options.bendThreshold, "bend of the inscatter that is marched more finely")
-      ->check(aboveZero(1e6));
-  app.add_option("--least-weight", options.leastWeight, "bilateral weight under which a pixel is marched by itself")
-      ->check(CLI::Range(0.0, 1.0));
-  app.add_option("--average-threshold", options.averageThreshold,
-                 "optical depth of a stretch of a row that is taken by its average (default 0.1)")
-      ->check(CLI::Range(0.0, 1.0));
-  app.add_option("--spread-threshold", options.spreadThreshold,
-                 "spread of the samples around a pixel over which it is marched by itself")
-      ->check(aboveZero(1e6));
-  app.add_option("--sample-budget", options.sampleBudget, "slices x samples of all lights together")
-      ->check(CLI::Range(4096, 1 << 30));
-  app.add_option("--low-rank-terms", options.lowRankTerms, "terms of technique lowrank (default 4)")
-      ->check(CLI::Range(1, 8));
-}
-
-void addShadows(CLI::App& app, Options& options) {
-  chooseFrom(kFilters, app.add_option("--filter", options.shadowFilter, "of the shadow map (default nearest)"));
-  app.add_option("--medium", options.medium, "the medium, instead of the scene's")->type_name("M.json");
-  app.add_option("--shadow-size", options.shadowSize, "texels per side of a shadow map (default 4096)")
-      ->check(CLI::Range(1, tyndall::kMaxImageSize));
-  chooseFrom(kLayouts, app.add_option("--shadow-layout", options.mapForm.layout,
-                                      "of the maps that the effect gets: cube maps for point lights (default array)"));
-  chooseFrom(kEncodings, app.add_option("--shadow-encoding", options.mapForm.encoding,
-                                        "of their depths: distances along the axis, or from a lamp (default window)"));
-  app.add_option("--cascade-fade", options.cascadeFade,
-                 "share of a cascade's width over which it fades into the next (default 0.1)")
-      ->check(CLI::Range(0.0, 0.5));
-  app.add_option("--cascades", options.cascades, "shadow maps of a directional light (default 1)")
-      ->check(CLI::Range(1, 4));
-  app.add_option("--avsm-size", options.avsmSize, "texels per side of a light's map of smoke and strands (default 256)")
-      ->check(CLI::Range(1, 4096));
-  app.add_option("--avsm-nodes", options.avsmNodes, "nodes of its curves (default 8)")
-      ->check(CLI::IsMember({4, 8, 12, 16}));
-  app.add_flag_callback("--no-avsm", [&] { options.avsm = false; }, "smoke and strands cast no shadows");
-  app.add_flag("--reversed-depth", options.reversedDepth, "camera and shadow depth fall from 1 to 0");
+  const auto whole = [](settings::State& state) -> settings::State& { return state; };
+  addSettings(app, settings::pictureTable(), whole, given.overrides);
+  addEffectSettings(app, given.profile, given.overrides);
+  addSettings(
+      app, settings::tuningTable(), [](settings::State& s) -> tyndall::Tuning& { return s.tuning; }, given.overrides);
+  addSettings(app, settings::mapsTable(), whole, given.overrides);
+  addSettings(
+      app, settings::reuseTable(), [](settings::State& s) -> tyndall::Reuse& { return s.reuse; }, given.overrides);
 }
 
 void addFrames(CLI::App& app, Options& options, Given& given) {
   auto* frames = app.add_option_function<std::string>(
                         "--frames", [&](const std::string& text) { options.frames = parseFrames(text); },
                         "frames of the animation, at 24 a second")
-                     ->type_name("A-B");
+                     ->type_name("A-B")
+                     ->excludes(app.get_option("--time"));
   auto* share =
       app.add_option_function<std::string>(
              "--share", [&](const std::string& text) { options.share = parseShare("--share", text, kMaxFrame + 1); },
@@ -260,9 +231,19 @@ void addRest(CLI::App& app, Options& options, Given& given) {
                "compile every shader: linked programs are neither read from the user's cache folder nor kept there");
   app.add_flag("--check-inputs", options.checkInputs, "note where scene depth and shadow maps do not show one scene");
   app.add_flag("--strict", options.strict, "fail where there is a note: nothing is made up, left out or changed");
-  app.add_option("--exposure", options.exposureStops,
-                 "of the PNG, in stops (default: by the first picture's brightness)")
-      ->check(CLI::Range(-100.0, 100.0));
+}
+
+/// The state: a file's or the defaults, and what is given besides.
+void makeState(Options& options, const Given& given) {
+  if (options.stateFile) static_cast<settings::State&>(options) = settings::loadState(*options.stateFile);
+  if (!given.scene.empty()) options.scene = given.scene;
+  if (options.scene.empty()) throw UsageError("SCENE is required, or a --state that names one");
+  for (const Overrides* overrides : {&given.profile, &given.overrides})
+    for (const auto& override : *overrides)
+      override(options);
+  if (!given.camera) return;
+  options.camera = given.camera;
+  options.lookAt.reset();
 }
 
 /// What rests on several options.
@@ -274,10 +255,10 @@ void complete(Options& options, const Given& given) {
   if (std::max(renderedWidth(options), renderedHeight(options)) > tyndall::kMaxImageSize)
     failUsage("--supersample", std::to_string(options.supersample),
               fmt::format("makes more than {} pixels a side", tyndall::kMaxImageSize));
-  if (options.technique.empty()) options.technique = options.profile == "reference" ? "exact" : "epipolar";
   // What is kept of the frame before is so only to rounding: where frames are left out, each is drawn by itself.
   if (options.frames && !given.noReuse && !options.share && !options.resume && !options.repeat)
-    options.changes = given.detectChanges ? tyndall::Changes::Detect : tyndall::Changes::Objects;
+    options.reuse.changes = given.detectChanges ? tyndall::Changes::Detect : tyndall::Changes::Objects;
+  if (options.frames) options.seconds = 0;
   if (!given.noProgramCache) options.programs = host::programFolder();
   checkOutputs(options);
 }
@@ -295,20 +276,20 @@ std::vector<int> framesOf(const Options& options) {
 
 Options parseOptions(int argc, const char* const* argv) {
   Options options;
-  options.technique.clear();
   Given given;
   CLI::App app("Renders a glTF scene with Tyndall's volumetric shadows.", "tyndall-render");
   app.footer(kFooter);
   app.set_version_flag("--version", "tyndall-render " TYNDALL_VERSION);
-  app.add_option("SCENE", options.scene, "a glTF 2.0 file, .glb or .gltf")->required();
-  addView(app, options, given.lookAt);
-  addQuality(app, options);
-  addTuning(app, options.tuning);
-  addShadows(app, options);
+  app.add_option("SCENE", given.scene, "a glTF 2.0 file, .glb or .gltf");
+  addState(app, options, given);
   addFrames(app, options, given);
   addRest(app, options, given);
   parseArguments(app, argc, argv);
-  if (app.count("--eye") > 0) options.lookAt = given.lookAt;
+  makeState(options, given);
+  if (app.count("--eye") > 0) {
+    options.lookAt = given.lookAt;
+    options.camera.reset();
+  }
   complete(options, given);
   return options;
 }

@@ -8,7 +8,8 @@ namespace render {
 
 OutputNames::OutputNames(const Options& options) {
   taken_[host::identityOf(options.scene)] = "the scene";
-  if (options.medium) taken_[host::identityOf(*options.medium)] = "the medium";
+  if (options.mediumFile) taken_[host::identityOf(*options.mediumFile)] = "the medium";
+  if (options.stateFile) taken_[host::identityOf(*options.stateFile)] = "the state";
   for (const std::filesystem::path& pattern : options.out)
     for (const int frame : framesOf(options))
       add("--out", nameOfFrame(pattern, frame));

@@ -9,6 +9,7 @@
 #include <scene/Error.h>
 #include <scene/FileIo.h>
 #include <scene/ImageFile.h>
+#include <settings/Tables.h>
 
 namespace render {
 
@@ -20,7 +21,8 @@ bool isPng(const std::filesystem::path& file) {
 
 /// Radiance takes the film curve; the colours of the other views mean numbers.
 bool isRadiance(const Options& options) {
-  return options.view == tyndall::DebugView::Composite || options.view == tyndall::DebugView::Inscatter;
+  const tyndall::DebugView view = options.settings.debugView;
+  return view == tyndall::DebugView::Composite || view == tyndall::DebugView::Inscatter;
 }
 
 host::Image imageOf(const Picture& picture, int width, int height) {
@@ -70,8 +72,8 @@ nlohmann::ordered_json statisticsOf(const FrameStatistics& frame, const Options&
   nlohmann::ordered_json json = {{"driver", context.driver()},
                                  {"context", host::nameOf(context.kind())},
                                  {"size", {renderedWidth(options), renderedHeight(options)}},
-                                 {"technique", options.technique},
-                                 {"profile", options.profile},
+                                 {"technique", settings::nameOf(options.settings.technique)},
+                                 {"profile", settings::nameOf(options.profile)},
                                  {"effect_ms",
                                   {{"median", measurement.median()},
                                    {"min", measurement.milliseconds.front()},
@@ -130,8 +132,17 @@ bool needsExposure(const Options& options) {
 }
 
 std::vector<std::uint8_t> displayed(const std::vector<float>& rgb, const Options& options, float exposure) {
-  return isRadiance(options) ? host::toneMap(rgb.data(), options.width, options.height, exposure, options.supersample)
-                             : host::encodeColours(rgb.data(), options.width, options.height, options.supersample);
+  return isRadiance(options)
+             ? host::toneMap(rgb.data(), options.width, options.height, exposure, options.supersample, options.tone)
+             : host::encodeColours(rgb.data(), options.width, options.height, options.supersample);
+}
+
+void requirePictureName(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  if (extension != ".exr" && extension != ".png")
+    throw host::Error(host::printable(file.string()) + ": must end in .exr or .png");
 }
 
 void writePicture(const std::filesystem::path& file, const Picture& picture, const Options& options, float exposure) {

@@ -27,6 +27,9 @@ bool needsExposure(const Options& options);
 /// 0 on top: as the view asks for, radiance by the film curve.
 std::vector<std::uint8_t> displayed(const std::vector<float>& rgb, const Options& options, float exposure);
 
+/// Throws host::Error unless the file is an EXR or a PNG by its extension.
+void requirePictureName(const std::filesystem::path& file);
+
 /// Writes an EXR or a PNG, by the extension. Throws host::Error.
 void writePicture(const std::filesystem::path& file, const Picture& picture, const Options& options, float exposure);
 

@@ -4,30 +4,20 @@
 #include <chrono>
 #include <fmt/format.h>
 #include <gl/CameraView.h>
-#include <gl/Driver.h>
 #include <gl/Gl.h>
 #include <gl/ReadBack.h>
 #include <scene/Advice.h>
 #include <scene/Error.h>
 #include <scene/GltfLoader.h>
 #include <scene/MediumFile.h>
-#include <scene/MovedObjects.h>
 #include <scene/ProgramFiles.h>
 #include <scene/Projection.h>
-#include <scene/ShadowViews.h>
-#include <scene/Smoke.h>
-#include <scene/Strands.h>
 
 namespace render {
 
 namespace {
 
 constexpr double kFramesPerSecond = 24;
-
-/// Timer queries of a software rasteriser measure when commands were queued, not when they ran.
-tyndall::PassTiming timingFor(const std::string& driver) {
-  return host::isSoftware(driver) ? tyndall::PassTiming::Finish : tyndall::PassTiming::TimerQuery;
-}
 
 host::RenderTargetOptions targetOptions(const Options& options) {
   host::RenderTargetOptions target;
@@ -43,45 +33,25 @@ host::RenderTargetOptions sampledOptions(const Options& options) {
   return target;
 }
 
-/// Digits of a number after the point, in reverse.
-double radicalInverse(int number, int base) {
-  double result = 0, place = 1;
-  for (; number > 0; number /= base)
-    result += (place /= base) * (number % base);
-  return result;
+settings::State stateOf(const Options& options) {
+  settings::State state = options;
+  if (options.mediumFile) state.medium = host::loadMedium(*options.mediumFile);
+  return state;
 }
 
-tyndall::Settings settingsOf(const Options& options) {
-  const auto profile = options.profile == "performance" ? tyndall::Profile::Performance
-                       : options.profile == "balanced"  ? tyndall::Profile::Balanced
-                       : options.profile == "high"      ? tyndall::Profile::High
-                                                        : tyndall::Profile::Reference;
-  tyndall::Settings settings = tyndall::settingsOf(profile);
-  settings.technique = options.technique == "exact"     ? tyndall::Technique::Exact
-                       : options.technique == "tree"    ? tyndall::Technique::Tree
-                       : options.technique == "lowrank" ? tyndall::Technique::LowRank
-                                                        : tyndall::Technique::Epipolar;
-  settings.debugView = options.view;
-  settings.shadowFilter = options.shadowFilter;
-  settings.slices = options.slices.value_or(settings.slices);
-  settings.samples = options.samples.value_or(settings.samples);
-  settings.rowStep = options.rowStep.value_or(settings.rowStep);
-  settings.minMaxTree = options.minMaxTree;
-  settings.breakThreshold = options.breakThreshold.value_or(settings.breakThreshold);
-  settings.bendThreshold = options.bendThreshold.value_or(settings.bendThreshold);
-  settings.leastWeight = options.leastWeight.value_or(settings.leastWeight);
-  settings.averageThreshold = options.averageThreshold.value_or(settings.averageThreshold);
-  settings.sampleBudget = options.sampleBudget.value_or(settings.sampleBudget);
-  settings.lowRankTerms = options.lowRankTerms.value_or(settings.lowRankTerms);
-  settings.spreadThreshold = options.spreadThreshold.value_or(settings.spreadThreshold);
-  return settings;
+Moment momentOf(const Options& options, int frame) {
+  Moment moment;
+  moment.seconds = options.seconds + frame / kFramesPerSecond;
+  moment.jitterPlace = frame;
+  if (!options.sun) return moment;
+  moment.sun = host::makeSun(options.sun->direction);
+  if (options.sun->colour)
+    moment.sun->colour = {options.sun->colour->r, options.sun->colour->g, options.sun->colour->b};
+  return moment;
 }
 
-tyndall::ClipDepth clipDepthOf(const Options& options) {
-  return options.reversedDepth ? tyndall::ClipDepth::ZeroToOne : tyndall::ClipDepth::NegativeOneToOne;
-}
+} // namespace
 
-/// Distances along the view axis. The scene's depth runs over (0, 1) whatever its direction.
 std::vector<float> viewZ(std::vector<float> depth, const tyndall::Camera& camera, bool reversed) {
   const glm::dmat4 viewFromClip = glm::inverse(host::fromMat4(camera.clipFromView));
   const float sky = reversed ? 0.0F : 1.0F;
@@ -94,13 +64,6 @@ std::vector<float> viewZ(std::vector<float> depth, const tyndall::Camera& camera
   return depth;
 }
 
-void addOnce(host::Notes& notes, const host::Notes& more) {
-  for (const std::string& note : more)
-    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
-}
-
-} // namespace
-
 double Measurement::median() const {
   const std::size_t count = milliseconds.size();
   return 0.5 * (milliseconds[(count - 1) / 2] + milliseconds[count / 2]);
@@ -109,25 +72,23 @@ double Measurement::median() const {
 FrameRenderer::FrameRenderer(const Options& options)
     : options_(options),
       context_(host::Context::create(options.context ? *options.context : host::defaultContextKind(), {options.debug})),
-      scene_(host::loadScene(options.scene)), notes_(scene_.notes),
-      sceneRenderer_(std::make_unique<host::SceneRenderer>(scene_)), surfaces_(sampledOptions(options)),
-      composite_(targetOptions(options)),
+      surfaces_(sampledOptions(options)), composite_(targetOptions(options)),
       inscatter_(host::makeTexture2D(GL_RGBA32F, surfaces_.width(), surfaces_.height())),
       transmittance_(host::makeTexture2D(GL_RGBA32F, surfaces_.width(), surfaces_.height())) {
+  host::Scene scene = host::loadScene(options.scene);
+  notes_ = scene.notes;
   tyndall::Config config;
   config.loader = context_->loader();
-  config.timing = timingFor(context_->driver());
+  config.timing = timingFor(*context_);
   config.tuning = options.tuning;
   config.checkInputs = options.checkInputs;
   if (options.programs) config.programs = host::programFiles(*options.programs);
   tyndall::CreateResult created = tyndall::Effect::create(config);
   if (!created.status) throw host::Error("effect: " + created.status.message);
   effect_ = std::move(created.effect);
-  meshBounds_ = host::meshBounds(scene_);
-  if (hasVolumes()) makeVolumeShadows();
+  drawer_ = std::make_unique<SceneDrawer>(std::move(scene), *context_, options_, notes_);
 
-  const host::Bounds bounds = host::boundsOf(scene_, host::poseAt(scene_, 0));
-  frame_.medium = options.medium ? host::loadMedium(*options.medium) : host::mediumOf(scene_, bounds, notes_);
+  frame_.medium = drawer_->mediumOf(stateOf(options), notes_);
   frame_.viewport.width = surfaces_.width();
   frame_.viewport.height = surfaces_.height();
   frame_.colour = composite_.colour();
@@ -135,72 +96,8 @@ FrameRenderer::FrameRenderer(const Options& options)
   frame_.depth.multisampled = surfaces_.multisampled();
   frame_.output.inscatter = inscatter_.name();
   frame_.output.transmittance = transmittance_.name();
-  frame_.settings = settingsOf(options);
-  frame_.reuse.changes = options.changes;
-}
-
-tyndall::Camera FrameRenderer::makeCamera(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) const {
-  const host::CameraOptions cameraOptions{options_.reversedDepth, clipDepthOf(options_)};
-  const double aspect = static_cast<double>(options_.width) / options_.height;
-  if (options_.lookAt)
-    return host::makeLookAt(scene_, worldFromNode, options_.lookAt->eye, options_.lookAt->target,
-                            options_.lookAt->fovDegrees, aspect, cameraOptions);
-  if (!options_.camera && host::cameraNodes(scene_).empty())
-    return host::makeDefaultCamera(scene_, worldFromNode, aspect, cameraOptions, notes);
-  return host::makeCamera(scene_, worldFromNode, options_.camera.value_or(0), aspect, cameraOptions);
-}
-
-std::vector<tyndall::Light> FrameRenderer::makeLights(const std::vector<glm::dmat4>& worldFromNode,
-                                                      host::Notes& notes) const {
-  if (!options_.sun) return host::makeLights(scene_, worldFromNode, notes);
-  tyndall::Light sun = host::makeSun(options_.sun->direction);
-  if (options_.sun->colour) sun.colour = {options_.sun->colour->r, options_.sun->colour->g, options_.sun->colour->b};
-  return {sun};
-}
-
-bool FrameRenderer::hasVolumes() const { return !scene_.smoke.empty() || host::hasStrands(scene_); }
-
-void FrameRenderer::makeVolumeShadows() {
-  if (!options_.avsm) return;
-  constexpr int kNeeded = 43;
-  const int version = context_->glVersion();
-  if (version >= kNeeded) {
-    volumeShadows_ = std::make_unique<VolumeShadows>(context_->loader(), timingFor(context_->driver()),
-                                                     options_.avsmSize, options_.avsmNodes);
-    return;
-  }
-  notes_.push_back("smoke and strands are drawn without their shadows: adaptive volumetric shadow maps need OpenGL "
-                   "4.3, and the context has " +
-                   std::to_string(version / 10) + "." + std::to_string(version % 10));
-}
-
-// For the effect: surfaces read arrays.
-void FrameRenderer::layOutMaps() {
-  const host::MapForm& form = options_.mapForm;
-  const bool isPlain = form.layout == host::MapLayout::Array && form.encoding == tyndall::DepthEncoding::Window;
-  if (isPlain) return;
-  if (!shadowLayout_) shadowLayout_ = std::make_unique<host::ShadowLayout>(form);
-  laidOutMaps_.clear();
-  for (tyndall::Light& light : frame_.lights)
-    laidOutMaps_.push_back(shadowLayout_->layOut(light, options_.shadowSize));
-}
-
-void FrameRenderer::renderShadowMaps(const std::vector<glm::dmat4>& worldFromNode, double seconds, host::Notes& notes) {
-  shadowMaps_.clear();
-  const bool cubeFaces = options_.mapForm.layout == host::MapLayout::Cube;
-  const host::ShadowOptions shadowOptions{options_.reversedDepth, clipDepthOf(options_), options_.cascades, cubeFaces,
-                                          seconds};
-  for (tyndall::Light& light : frame_.lights) {
-    addOnce(notes, host::fitShadowViews(light, scene_, worldFromNode, frame_.camera, shadowOptions));
-    if (light.shadow.views.empty()) continue;
-    if (light.shadow.views.size() > 1 && light.kind == tyndall::LightKind::Directional)
-      light.cascadeFade = options_.cascadeFade;
-    shadowMaps_.push_back(sceneRenderer_->renderShadowMap(worldFromNode, light, options_.shadowSize));
-    shadowMaps_.back().attachTo(light);
-  }
-  if (!hasVolumes()) return;
-  sceneRenderer_->setVolumes(host::smokeAt(scene_, seconds), host::strandsAt(scene_, worldFromNode));
-  if (volumeShadows_) volumeShadows_->update(*sceneRenderer_, frame_.lights);
+  frame_.settings = options.settings;
+  frame_.reuse = options.reuse;
 }
 
 /// Whether nothing that the light sends into the medium reaches the eye: the inscatter by itself is 0 everywhere.
@@ -217,12 +114,12 @@ bool FrameRenderer::isKeptOut(const tyndall::Light& light) {
   return std::all_of(inscatter.begin(), inscatter.end(), [](float value) { return value == 0; });
 }
 
-void FrameRenderer::noteEnclosures(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) {
+void FrameRenderer::noteEnclosures(host::Notes& notes) {
   const auto sum = [](const tyndall::Rgb& rgb) { return rgb[0] + rgb[1] + rgb[2]; };
   const auto scatters = [&](const tyndall::Constituent& constituent) { return sum(constituent.scattering) > 0; };
   const std::vector<tyndall::Constituent>& constituents = frame_.medium.constituents;
   if (std::none_of(constituents.begin(), constituents.end(), scatters)) return;
-  for (const host::Enclosure& enclosure : host::enclosuresOf(scene_, worldFromNode, frame_.camera, frame_.lights)) {
+  for (const host::Enclosure& enclosure : host::enclosuresOf(scene(), drawer_->pose(), frame_.camera, frame_.lights)) {
     const tyndall::Light& light = frame_.lights[static_cast<std::size_t>(enclosure.light)];
     if (sum(light.colour) > 0 && isKeptOut(light))
       notes.push_back(enclosure.mesh + " encloses the camera and all that it sees: light " +
@@ -236,25 +133,6 @@ void FrameRenderer::noteCutRadiance(host::Notes& notes) const {
   const std::vector<float> colour = host::readColour(surfaces_.colour(), surfaces_.width(), surfaces_.height(), 3);
   const auto cut = std::count_if(colour.begin(), colour.end(), [most](float value) { return value >= most; });
   if (cut > 0) notes.push_back(fmt::format("radiance of surfaces is cut at {:g}, the most that is held", most));
-}
-
-// Smoke moves in every frame: all of the box around it may dim the light anew.
-void FrameRenderer::addMovedObjects(const std::vector<glm::dmat4>& worldFromNode, double seconds) {
-  frame_.objects = host::movedObjects(scene_, meshBounds_, lastPose_, worldFromNode);
-  if (!volumeShadows_) return;
-  for (const host::SmokeEmitter& emitter : scene_.smoke)
-    frame_.objects.push_back(
-        host::movedBox(host::smokeBounds(scene_, emitter, lastSeconds_), host::smokeBounds(scene_, emitter, seconds)));
-}
-
-// As for temporal antialiasing: after the shadow views were fitted, which do not follow.
-void FrameRenderer::jitterCamera(int frame) {
-  if (options_.halton == 0) return;
-  const int place = frame % options_.halton + 1;
-  tyndall::Camera& camera = frame_.camera;
-  camera.jitter = {radicalInverse(place, 2) - 0.5, radicalInverse(place, 3) - 0.5};
-  const glm::dvec3 ndc(2 * camera.jitter[0] / frame_.viewport.width, 2 * camera.jitter[1] / frame_.viewport.height, 0);
-  camera.clipFromView = host::toMat4(host::translation(ndc) * host::fromMat4(camera.clipFromView));
 }
 
 // One of a pixel's samples, for the picture's Z.
@@ -322,27 +200,13 @@ void FrameRenderer::throwGlErrors() const {
 }
 
 void FrameRenderer::draw(int frame) {
-  const double seconds = frame / kFramesPerSecond;
-  const std::vector<glm::dmat4> worldFromNode = host::poseAt(scene_, seconds);
   host::Notes notes;
-  frame_.camera = makeCamera(worldFromNode, notes);
-  frame_.lights = makeLights(worldFromNode, notes);
-  const glm::vec3 sky = host::skyOf(scene_, worldFromNode, frame_.lights, notes);
-  renderShadowMaps(worldFromNode, seconds, notes);
-  jitterCamera(frame);
-  const bool isFirst = lastPose_.empty();
-  if (isFirst) addOnce(notes, host::adviceOn(scene_, worldFromNode, frame_.camera));
-  sceneRenderer_->renderScene(worldFromNode, frame_.camera, frame_.lights, surfaces_, sky, &frame_.medium);
+  const bool isFirst = drawer_->pose().empty();
+  drawer_->draw(options_, momentOf(options_, frame), surfaces_, frame_, notes);
   resolveDepth();
-  layOutMaps();
-  if (isFirst) noteEnclosures(worldFromNode, notes);
+  if (isFirst) noteEnclosures(notes);
   if (!options_.out.empty()) noteCutRadiance(notes);
   addOnce(notes_, notes);
-  ++frame_.reuse.frame;
-  frame_.objects.clear();
-  if (options_.changes == tyndall::Changes::Objects && !lastPose_.empty()) addMovedObjects(worldFromNode, seconds);
-  lastPose_ = worldFromNode;
-  lastSeconds_ = seconds;
   throwGlErrors();
 }
 
@@ -351,7 +215,7 @@ Measurement FrameRenderer::render(int frame) {
   if (options_.checkInputs) renderEffect(frame_); // what it finds is known in the next
   Measurement measurement = measure();
   addOnce(notes_, measurement.statistics.warnings);
-  if (volumeShadows_) measurement.volumeShadows = volumeShadows_->statistics();
+  if (drawer_->volumeShadows()) measurement.volumeShadows = drawer_->volumeShadows()->statistics();
   throwGlErrors();
   return measurement;
 }
@@ -361,9 +225,9 @@ Picture FrameRenderer::readPicture() const {
   picture.composite = host::readColour(composite_.colour(), frame_.viewport.width, frame_.viewport.height);
   picture.inscatter = host::readColour(inscatter_.name(), frame_.viewport.width, frame_.viewport.height);
   picture.transmittance = host::readColour(transmittance_.name(), frame_.viewport.width, frame_.viewport.height);
-  picture.z = viewZ(host::readDepth((surfaces_.multisampled() ? composite_ : surfaces_).depth(), frame_.viewport.width,
-                                    frame_.viewport.height),
-                    frame_.camera, options_.reversedDepth);
+  const host::RenderTargets& targets = surfaces_.multisampled() ? composite_ : surfaces_;
+  picture.z =
+      viewZ(host::readDepth(targets.depth(), targets.width(), targets.height()), frame_.camera, options_.reversedDepth);
   throwGlErrors();
   return picture;
 }

@@ -2,11 +2,10 @@
 #pragma once
 
 #include "Options.h"
-#include "VolumeShadows.h"
+#include "SceneDrawer.h"
 
 #include <gl/Context.h>
 #include <gl/RenderTargets.h>
-#include <gl/SceneRenderer.h>
 #include <memory>
 #include <scene/Scene.h>
 #include <scene/View.h>
@@ -25,6 +24,9 @@ struct Picture {
   std::vector<float> transmittance;
   std::vector<float> z;
 };
+
+/// Distances along the view axis, of depths as the scene's targets hold them, over (0, 1) whatever their direction.
+std::vector<float> viewZ(std::vector<float> depth, const tyndall::Camera& camera, bool reversed);
 
 /// What the effect did in one frame.
 struct Measurement {
@@ -51,7 +53,7 @@ public:
   Picture readPicture() const;
 
   /// The scene and the last frame as the effect saw it: its textures live until the next render().
-  const host::Scene& scene() const { return scene_; }
+  const host::Scene& scene() const { return drawer_->scene(); }
   const tyndall::Frame& frame() const { return frame_; }
 
   const host::Context& context() const { return *context_; }
@@ -61,17 +63,9 @@ public:
   const host::Notes& notes() const { return notes_; }
 
 private:
-  tyndall::Camera makeCamera(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) const;
-  std::vector<tyndall::Light> makeLights(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) const;
-  void renderShadowMaps(const std::vector<glm::dmat4>& worldFromNode, double seconds, host::Notes& notes);
-  void makeVolumeShadows();
-  void layOutMaps();
-  void noteEnclosures(const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes);
+  void noteEnclosures(host::Notes& notes);
   bool isKeptOut(const tyndall::Light& light);
   void noteCutRadiance(host::Notes& notes) const;
-  void addMovedObjects(const std::vector<glm::dmat4>& worldFromNode, double seconds);
-  bool hasVolumes() const;
-  void jitterCamera(int frame);
   void resolveDepth() const;
   void restoreColour() const;
   double renderEffect(const tyndall::Frame& frame); ///< milliseconds
@@ -80,21 +74,13 @@ private:
 
   Options options_;
   std::unique_ptr<host::Context> context_; ///< outlives all that has GL names
-  host::Scene scene_;
   host::Notes notes_;
-  std::unique_ptr<host::SceneRenderer> sceneRenderer_;
+  std::unique_ptr<SceneDrawer> drawer_;
   host::RenderTargets surfaces_;  ///< the scene before the effect
   host::RenderTargets composite_; ///< its colour, blended over
   host::GlTexture inscatter_;
   host::GlTexture transmittance_;
-  std::vector<host::ShadowMapTextures> shadowMaps_;
-  std::unique_ptr<host::ShadowLayout> shadowLayout_; ///< none: the maps are the effect's as they are
-  std::vector<host::LaidOutMaps> laidOutMaps_;
-  std::unique_ptr<VolumeShadows> volumeShadows_; ///< none without smoke and strands, or where they cast no shadow
   std::unique_ptr<tyndall::Effect> effect_;
-  std::vector<host::Bounds> meshBounds_;
-  std::vector<glm::dmat4> lastPose_; ///< of the last frame; empty before the first
-  double lastSeconds_ = 0;
   tyndall::Frame frame_;
 };
 

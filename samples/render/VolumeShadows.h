@@ -1,8 +1,6 @@
 // Adaptive volumetric shadow maps of a frame's lights: what smoke and strands let through.
 #pragma once
 
-#include "Options.h"
-
 #include <gl/SceneRenderer.h>
 #include <memory>
 #include <tyndall/avsm.h>

@@ -14,6 +14,7 @@
 #include <scene/Error.h>
 #include <scene/FileIo.h>
 #include <scene/Tool.h>
+#include <settings/Tables.h>
 
 namespace render {
 
@@ -29,8 +30,8 @@ void printSummary(const Options& options, const FrameRenderer& renderer, const s
   for (const FrameStatistics& frame : frames)
     host::print(fmt::format("{} frame {}: {}x{}, {} lights, technique {}: effect {:.1f} ms ({})\n",
                             host::printable(options.scene.filename().string()), frame.frame, options.width,
-                            options.height, renderer.lightCount(), options.technique, frame.measurement.median(),
-                            renderer.context().driver()));
+                            options.height, renderer.lightCount(), settings::nameOf(options.settings.technique),
+                            frame.measurement.median(), renderer.context().driver()));
 }
 
 /// What is given, or by the first of all frames, also where another run draws that one.

@@ -44,8 +44,8 @@ render::Options optionsOf(const Setup& setup, const std::string& scenesFolder) {
   options.height = setup.height;
   options.shadowSize = setup.shadowSize;
   options.context = setup.context;
-  options.profile = "performance"; // the frame is only drawn for its depth and shadow maps
-  options.technique = "epipolar";
+  options.profile = tyndall::Profile::Performance; // the frame is only drawn for its depth and shadow maps
+  options.settings = tyndall::settingsOf(options.profile);
   options.debug = false;
   return options;
 }

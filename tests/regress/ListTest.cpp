@@ -44,10 +44,10 @@ TEST_CASE("a case's options are an object or words, and those of the defaults th
   CHECK((cases[0].options.width == 64 && cases[0].options.strict));
   CHECK(cases[0].tolerance.rRmse == 0.25);
   CHECK(cases[1].options.scene == "/b.glb");
-  CHECK((cases[1].options.height == 4 && !cases[1].options.strict && *cases[1].options.slices == 96));
+  CHECK((cases[1].options.height == 4 && !cases[1].options.strict && cases[1].options.settings.slices == 96));
   CHECK(cases[1].options.sun->direction.x == -1);
   CHECK((cases[2].options.width == 64 && cases[2].options.strict && cases[2].options.reversedDepth));
-  CHECK((*cases[2].options.slices == 96 && cases[2].options.sun->direction.y == -1));
+  CHECK((cases[2].options.settings.slices == 96 && cases[2].options.sun->direction.y == -1));
   CHECK((*cases[2].tolerance.flip == 0.5 && cases[2].tolerance.rRmse == 0.25));
 }
 

@@ -29,19 +29,18 @@ std::filesystem::path writeIsotropic(const tyndall::Medium& medium) {
 
 void printRow(const std::string& scene) {
   render::Options options = tests::sampleOptions(scene, 320, 180, 1024);
-  options.medium = writeIsotropic(tests::renderScene(options).view.medium);
-  options.profile = "high";
-  options.technique = "tree";
+  options.mediumFile = writeIsotropic(tests::renderScene(options).view.medium);
+  options.settings.technique = tyndall::Technique::Tree;
   const reference::Image truth = tests::renderScene(options).exact.inscatter;
   host::print("| " + scene + " |");
-  options.technique = "lowrank";
+  options.settings.technique = tyndall::Technique::LowRank;
   for (int terms = 1; terms <= kTerms; ++terms) {
-    options.lowRankTerms = terms;
+    options.settings.lowRankTerms = terms;
     const reference::ErrorMetrics error = reference::compare(tests::renderScene(options).exact.inscatter, truth);
     host::print(fmt::format(" {:.2g} % |", 100 * error.rRmse));
   }
   host::print("\n");
-  std::filesystem::remove(*options.medium);
+  std::filesystem::remove(*options.mediumFile);
 }
 
 } // namespace

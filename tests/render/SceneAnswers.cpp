@@ -44,8 +44,8 @@ const std::vector<std::string>& sampleScenes() {
 
 render::Options sampleOptions(const std::string& scene, int width, int height, int shadowSize) {
   render::Options options;
-  options.profile = "reference";
-  options.technique = "exact";
+  options.profile = tyndall::Profile::Reference;
+  options.settings = tyndall::settingsOf(options.profile);
   options.scene = host::placeOf("scenes", TYNDALL_SCENES_DIR) / (scene + ".glb");
   options.width = width;
   options.height = height;

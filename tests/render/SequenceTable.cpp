@@ -11,6 +11,7 @@
 #include <gl/ReadBack.h>
 #include <scene/Error.h>
 #include <scene/Tool.h>
+#include <settings/Tables.h>
 
 namespace {
 
@@ -66,15 +67,15 @@ double difference(const std::vector<float>& a, const std::vector<float>& b) {
 
 int run(render::Options options) {
   if (!options.frames) throw render::UsageError("--frames is missing");
-  options.changes = Changes::Objects; // the renderer tells what moved
-  options.programs.reset();           // a measurement depends on no earlier one
+  options.reuse.changes = Changes::Objects; // the renderer tells what moved
+  options.programs.reset();                 // a measurement depends on no earlier one
   options.debug = false;
   render::FrameRenderer renderer(options);
   std::array<Way, kWays.size()> ways;
   for (Way& way : ways)
     way.effect = makeEffect(renderer, options.tuning);
   host::print(fmt::format("# {}, {}x{}, shadow map {}, profile {}, {}\n", options.scene.filename().string(),
-                          options.width, options.height, options.shadowSize, options.profile,
+                          options.width, options.height, options.shadowSize, settings::nameOf(options.profile),
                           renderer.context().driver()));
   host::print("frame,full_ms,objects_ms,detect_ms,objects_share,detect_share,objects_error,detect_error\n");
   for (int number = options.frames->first; number <= options.frames->last; ++number) {

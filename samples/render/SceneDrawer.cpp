@@ -1,0 +1,251 @@
+#include "SceneDrawer.h"
+
+#include <algorithm>
+#include <gl/Driver.h>
+#include <scene/Advice.h>
+#include <scene/MovedObjects.h>
+#include <scene/Projection.h>
+#include <scene/ShadowViews.h>
+#include <scene/Smoke.h>
+#include <scene/Strands.h>
+
+namespace render {
+
+namespace {
+
+/// Digits of a number after the point, in reverse.
+double radicalInverse(int number, int base) {
+  double result = 0, place = 1;
+  for (; number > 0; number /= base)
+    result += (place /= base) * (number % base);
+  return result;
+}
+
+// As for temporal antialiasing: after the shadow views were fitted, which do not follow.
+void jitterCamera(const settings::State& state, int frame, tyndall::Camera& camera) {
+  if (state.halton == 0) return;
+  const int place = frame % state.halton + 1;
+  camera.jitter = {radicalInverse(place, 2) - 0.5, radicalInverse(place, 3) - 0.5};
+  const glm::dvec3 ndc(2 * camera.jitter[0] / renderedWidth(state), 2 * camera.jitter[1] / renderedHeight(state), 0);
+  camera.clipFromView = host::toMat4(host::translation(ndc) * host::fromMat4(camera.clipFromView));
+}
+
+tyndall::ClipDepth clipDepthOf(const settings::State& state) {
+  return state.reversedDepth ? tyndall::ClipDepth::ZeroToOne : tyndall::ClipDepth::NegativeOneToOne;
+}
+
+template <typename Numbers>
+void append(std::vector<double>& key, const Numbers& numbers) {
+  for (const auto number : numbers)
+    key.push_back(static_cast<double>(number));
+}
+
+void append(std::vector<double>& key, const glm::dmat4& matrix) { append(key, host::toMat4(matrix)); }
+
+/// All that a light's maps depend on but the scene.
+void appendMapped(std::vector<double>& key, const tyndall::Light& light) {
+  append(key, light.position);
+  append(key, light.direction);
+  append(key, std::initializer_list<double>{static_cast<double>(light.kind), light.range, light.outerConeAngle,
+                                            static_cast<double>(light.shadow.clipDepth),
+                                            static_cast<double>(light.shadow.views.size())});
+  for (const tyndall::ShadowView& view : light.shadow.views)
+    append(key, view.clipFromWorld);
+}
+
+/// And its light on surfaces.
+void appendLit(std::vector<double>& key, const tyndall::Light& light) {
+  append(key, light.colour);
+  append(key, light.boundary.point);
+  append(key, light.boundary.normal);
+  append(key, std::initializer_list<double>{light.innerConeAngle, light.cascadeFade, double(light.litOutsideViews),
+                                            double(light.boundary.enabled)});
+}
+
+void append(std::vector<double>& key, const tyndall::Medium& medium) {
+  append(key, medium.absorption);
+  key.push_back(medium.farDistance);
+  for (const tyndall::Constituent& constituent : medium.constituents)
+    append(key, constituent.scattering);
+}
+
+} // namespace
+
+tyndall::PassTiming timingFor(const host::Context& context) {
+  return host::isSoftware(context.driver()) ? tyndall::PassTiming::Finish : tyndall::PassTiming::TimerQuery;
+}
+
+void addOnce(host::Notes& notes, const host::Notes& more) {
+  for (const std::string& note : more)
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+}
+
+SceneDrawer::SceneDrawer(host::Scene scene, const host::Context& context, const settings::State& state,
+                         host::Notes& notes)
+    : context_(context), scene_(std::move(scene)), renderer_(std::make_unique<host::SceneRenderer>(scene_)),
+      meshBounds_(host::meshBounds(scene_)) {
+  makeVolumeShadows(state, notes);
+}
+
+bool SceneDrawer::hasVolumes() const { return !scene_.smoke.empty() || host::hasStrands(scene_); }
+
+// Again where the state has others.
+void SceneDrawer::makeVolumeShadows(const settings::State& state, host::Notes& notes) {
+  const bool isMade = avsm_.isOn == state.avsm && avsm_.size == state.avsmSize && avsm_.nodes == state.avsmNodes;
+  if (!hasVolumes() || isMade) return;
+  avsm_ = {state.avsm, state.avsmSize, state.avsmNodes};
+  volumeShadows_.reset();
+  mapsKey_.clear();
+  if (!state.avsm) return;
+  constexpr int kNeeded = 43;
+  const int version = context_.glVersion();
+  if (version >= kNeeded) {
+    volumeShadows_ =
+        std::make_unique<VolumeShadows>(context_.loader(), timingFor(context_), state.avsmSize, state.avsmNodes);
+    return;
+  }
+  notes.push_back("smoke and strands are drawn without their shadows: adaptive volumetric shadow maps need OpenGL "
+                  "4.3, and the context has " +
+                  std::to_string(version / 10) + "." + std::to_string(version % 10));
+}
+
+tyndall::Medium SceneDrawer::mediumOf(const settings::State& state, host::Notes& notes) const {
+  return state.medium ? *state.medium : host::mediumOf(scene_, host::boundsOf(scene_, host::poseAt(scene_, 0)), notes);
+}
+
+tyndall::Camera SceneDrawer::cameraOf(const settings::State& state, const std::vector<glm::dmat4>& worldFromNode,
+                                      host::Notes& notes) const {
+  const host::CameraOptions cameraOptions{state.reversedDepth, clipDepthOf(state)};
+  const double aspect = static_cast<double>(state.width) / state.height;
+  if (state.lookAt)
+    return host::makeLookAt(scene_, worldFromNode, state.lookAt->eye, state.lookAt->target, state.lookAt->fovDegrees,
+                            aspect, cameraOptions);
+  if (!state.camera && host::cameraNodes(scene_).empty())
+    return host::makeDefaultCamera(scene_, worldFromNode, aspect, cameraOptions, notes);
+  return host::makeCamera(scene_, worldFromNode, state.camera.value_or(0), aspect, cameraOptions);
+}
+
+std::vector<tyndall::Light> SceneDrawer::lightsOf(const settings::State& state, const Moment& moment,
+                                                  const std::vector<glm::dmat4>& worldFromNode,
+                                                  host::Notes& notes) const {
+  if (moment.sun) return {*moment.sun};
+  if (!state.lights) return host::makeLights(scene_, worldFromNode, notes);
+  host::Notes ofNoConcern;
+  return settings::lightsOf(*state.lights, host::makeLights(scene_, worldFromNode, ofNoConcern));
+}
+
+void SceneDrawer::fitViews(const settings::State& state, const Moment& moment,
+                           const std::vector<glm::dmat4>& worldFromNode, tyndall::Frame& frame,
+                           host::Notes& notes) const {
+  const bool cubeFaces = state.mapForm.layout == host::MapLayout::Cube;
+  const bool areScenes = moment.sun || !state.lights;
+  const host::ShadowOptions shadowOptions{state.reversedDepth, clipDepthOf(state), state.cascades, cubeFaces,
+                                          moment.seconds};
+  for (tyndall::Light& light : frame.lights) {
+    addOnce(notes, host::fitShadowViews(light, scene_, worldFromNode, frame.camera, shadowOptions));
+    const bool isCascaded = light.shadow.views.size() > 1 && light.kind == tyndall::LightKind::Directional;
+    if (isCascaded && areScenes) light.cascadeFade = state.cascadeFade;
+  }
+}
+
+std::vector<double> SceneDrawer::mapsKeyOf(const settings::State& state, const Moment& moment,
+                                           const std::vector<glm::dmat4>& worldFromNode,
+                                           const std::vector<tyndall::Light>& lights) const {
+  std::vector<double> key = {static_cast<double>(state.shadowSize), static_cast<double>(lights.size())};
+  if (hasVolumes()) key.push_back(moment.seconds);
+  for (const glm::dmat4& matrix : worldFromNode)
+    append(key, matrix);
+  for (const tyndall::Light& light : lights)
+    appendMapped(key, light);
+  return key;
+}
+
+void SceneDrawer::drawMaps(const settings::State& state, const Moment& moment,
+                           const std::vector<glm::dmat4>& worldFromNode, tyndall::Frame& frame) {
+  std::vector<double> key = mapsKeyOf(state, moment, worldFromNode, frame.lights);
+  if (key == mapsKey_) {
+    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+      frame.lights[i].shadow = mappedLights_[i].shadow;
+      frame.lights[i].glass = mappedLights_[i].glass;
+      frame.lights[i].curves = mappedLights_[i].curves;
+    }
+    return;
+  }
+  mapsKey_.clear(); // of an attempt that fails
+  surfacesKey_.clear();
+  shadowMaps_.clear();
+  for (tyndall::Light& light : frame.lights) {
+    if (light.shadow.views.empty()) continue;
+    shadowMaps_.push_back(renderer_->renderShadowMap(worldFromNode, light, state.shadowSize));
+    shadowMaps_.back().attachTo(light);
+  }
+  if (hasVolumes()) {
+    renderer_->setVolumes(host::smokeAt(scene_, moment.seconds), host::strandsAt(scene_, worldFromNode));
+    if (volumeShadows_) volumeShadows_->update(*renderer_, frame.lights);
+  }
+  mappedLights_ = frame.lights;
+  mapsKey_ = std::move(key);
+}
+
+void SceneDrawer::drawSurfaces(const std::vector<glm::dmat4>& worldFromNode, const glm::vec3& sky,
+                               host::RenderTargets& surfaces, const tyndall::Frame& frame) {
+  std::vector<double> key = {static_cast<double>(surfaces.width()), static_cast<double>(surfaces.height())};
+  append(key, frame.camera.viewFromWorld);
+  append(key, frame.camera.clipFromView);
+  append(key, frame.medium);
+  append(key, std::initializer_list<double>{sky.r, sky.g, sky.b});
+  for (const tyndall::Light& light : frame.lights)
+    appendLit(key, light);
+  if (key == surfacesKey_) return;
+  surfacesKey_.clear();
+  renderer_->renderScene(worldFromNode, frame.camera, frame.lights, surfaces, sky, &frame.medium);
+  surfacesKey_ = std::move(key);
+}
+
+// For the effect: surfaces read arrays.
+void SceneDrawer::layOutMaps(const settings::State& state, tyndall::Frame& frame) {
+  const host::MapForm& form = state.mapForm;
+  const bool isPlain = form.layout == host::MapLayout::Array && form.encoding == tyndall::DepthEncoding::Window;
+  if (isPlain) return;
+  if (!shadowLayout_ || mapForm_.layout != form.layout || mapForm_.encoding != form.encoding)
+    shadowLayout_ = std::make_unique<host::ShadowLayout>(form);
+  mapForm_ = form;
+  laidOutMaps_.clear();
+  for (tyndall::Light& light : frame.lights)
+    laidOutMaps_.push_back(shadowLayout_->layOut(light, state.shadowSize));
+}
+
+// Smoke moves in every frame: all of the box around it may dim the light anew.
+std::vector<tyndall::MovingObject> SceneDrawer::movedObjects(const std::vector<glm::dmat4>& worldFromNode,
+                                                             double seconds) const {
+  std::vector<tyndall::MovingObject> objects = host::movedObjects(scene_, meshBounds_, pose_, worldFromNode);
+  if (!volumeShadows_) return objects;
+  for (const host::SmokeEmitter& emitter : scene_.smoke)
+    objects.push_back(
+        host::movedBox(host::smokeBounds(scene_, emitter, seconds_), host::smokeBounds(scene_, emitter, seconds)));
+  return objects;
+}
+
+void SceneDrawer::draw(const settings::State& state, const Moment& moment, host::RenderTargets& surfaces,
+                       tyndall::Frame& frame, host::Notes& notes) {
+  makeVolumeShadows(state, notes);
+  const std::vector<glm::dmat4> worldFromNode = host::poseAt(scene_, moment.seconds);
+  frame.camera = cameraOf(state, worldFromNode, notes);
+  frame.lights = lightsOf(state, moment, worldFromNode, notes);
+  const glm::vec3 sky = host::skyOf(scene_, worldFromNode, frame.lights, notes);
+  fitViews(state, moment, worldFromNode, frame, notes);
+  drawMaps(state, moment, worldFromNode, frame);
+  jitterCamera(state, moment.jitterPlace, frame.camera);
+  const bool isFirst = pose_.empty();
+  if (isFirst) addOnce(notes, host::adviceOn(scene_, worldFromNode, frame.camera));
+  drawSurfaces(worldFromNode, sky, surfaces, frame);
+  layOutMaps(state, frame);
+  ++frame.reuse.frame;
+  frame.objects.clear();
+  if (state.reuse.changes == tyndall::Changes::Objects && !isFirst)
+    frame.objects = movedObjects(worldFromNode, moment.seconds);
+  pose_ = worldFromNode;
+  seconds_ = moment.seconds;
+}
+
+} // namespace render

@@ -1,0 +1,95 @@
+// A scene as a state asks for it: maps, surfaces, and the frame that the effect is given.
+#pragma once
+
+#include "VolumeShadows.h"
+
+#include <gl/Context.h>
+#include <gl/RenderTargets.h>
+#include <gl/SceneRenderer.h>
+#include <gl/ShadowLayout.h>
+#include <memory>
+#include <scene/Scene.h>
+#include <scene/View.h>
+#include <settings/State.h>
+#include <tyndall/tyndall.h>
+#include <vector>
+
+namespace render {
+
+/// How passes are timed: timer queries of a software rasteriser measure when commands were queued, not when they ran.
+tyndall::PassTiming timingFor(const host::Context& context);
+
+/// Adds those that are not among them.
+void addOnce(host::Notes& notes, const host::Notes& more);
+
+/// What of a state's animation is drawn.
+struct Moment {
+  double seconds = 0;
+  int jitterPlace = 0;               ///< for State::halton: counts frames
+  std::optional<tyndall::Light> sun; ///< in place of all lights
+};
+
+class SceneDrawer {
+public:
+  /// Uploads the scene in the current context, which outlives this.
+  SceneDrawer(host::Scene scene, const host::Context& context, const settings::State& state, host::Notes& notes);
+
+  /// Draws maps and surfaces, and fills in the frame's camera and lights and, by what moved since the last call, its
+  /// objects. Its textures live until the next call. What would be as at the last call is not drawn again. Throws
+  /// host::Error.
+  void draw(const settings::State& state, const Moment& moment, host::RenderTargets& surfaces, tyndall::Frame& frame,
+            host::Notes& notes);
+
+  /// The surfaces are to be drawn, whatever the targets hold.
+  void forgetSurfaces() { surfacesKey_.clear(); }
+
+  /// The state's medium, or the scene's.
+  tyndall::Medium mediumOf(const settings::State& state, host::Notes& notes) const;
+
+  tyndall::Camera cameraOf(const settings::State& state, const std::vector<glm::dmat4>& worldFromNode,
+                           host::Notes& notes) const;
+
+  const host::Scene& scene() const { return scene_; }
+  const std::vector<glm::dmat4>& pose() const { return pose_; } ///< of the last draw(); empty before the first
+  const VolumeShadows* volumeShadows() const { return volumeShadows_.get(); } ///< null: there are none
+
+private:
+  std::vector<tyndall::Light> lightsOf(const settings::State& state, const Moment& moment,
+                                       const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) const;
+  void fitViews(const settings::State& state, const Moment& moment, const std::vector<glm::dmat4>& worldFromNode,
+                tyndall::Frame& frame, host::Notes& notes) const;
+  std::vector<double> mapsKeyOf(const settings::State& state, const Moment& moment,
+                                const std::vector<glm::dmat4>& worldFromNode,
+                                const std::vector<tyndall::Light>& lights) const;
+  void drawMaps(const settings::State& state, const Moment& moment, const std::vector<glm::dmat4>& worldFromNode,
+                tyndall::Frame& frame);
+  void drawSurfaces(const std::vector<glm::dmat4>& worldFromNode, const glm::vec3& sky, host::RenderTargets& surfaces,
+                    const tyndall::Frame& frame);
+  void layOutMaps(const settings::State& state, tyndall::Frame& frame);
+  void makeVolumeShadows(const settings::State& state, host::Notes& notes);
+  bool hasVolumes() const;
+  std::vector<tyndall::MovingObject> movedObjects(const std::vector<glm::dmat4>& worldFromNode, double seconds) const;
+
+  /// Of smoke's shadows, as State has them.
+  struct Avsm {
+    bool isOn = false;
+    int size = 0, nodes = 0;
+  };
+
+  const host::Context& context_;
+  host::Scene scene_;
+  std::unique_ptr<host::SceneRenderer> renderer_;
+  std::vector<host::ShadowMapTextures> shadowMaps_;
+  std::unique_ptr<host::ShadowLayout> shadowLayout_; ///< none: the maps are the effect's as they are
+  host::MapForm mapForm_;                            ///< of shadowLayout_
+  std::vector<host::LaidOutMaps> laidOutMaps_;
+  std::vector<double> mapsKey_, surfacesKey_;    ///< all that they were drawn from; empty: nothing was
+  std::vector<tyndall::Light> mappedLights_;     ///< with the maps as they were drawn
+  std::unique_ptr<VolumeShadows> volumeShadows_; ///< none without smoke and strands, or where they cast no shadow
+  Avsm avsm_;                                    ///< that they were made with
+  std::vector<host::Bounds> meshBounds_;
+  std::vector<glm::dmat4> pose_;
+  double seconds_ = 0; ///< of the pose
+};
+
+} // namespace render

@@ -1,0 +1,122 @@
+// What the host draws before the effect: the picture, and the maps that it hands over.
+#include "Tables.h"
+
+namespace settings {
+
+namespace {
+
+constexpr double kMostPlace = std::numeric_limits<double>::max();
+constexpr double kMostSeconds = 1e6;
+
+std::vector<Choice> tones() {
+  using host::Tone;
+  return {{"film", "Film", static_cast<int>(Tone::Film)},
+          {"reinhard", "Reinhard", static_cast<int>(Tone::Reinhard)},
+          {"clip", "Clip", static_cast<int>(Tone::Clip)}};
+}
+
+std::vector<Choice> layouts() {
+  using host::MapLayout;
+  return {{"array", "Array", static_cast<int>(MapLayout::Array)},
+          {"atlas", "Atlas", static_cast<int>(MapLayout::Atlas)},
+          {"cube", "Cube", static_cast<int>(MapLayout::Cube)}};
+}
+
+std::vector<Choice> encodings() {
+  using tyndall::DepthEncoding;
+  return {{"window", "Window", static_cast<int>(DepthEncoding::Window)},
+          {"axial", "Axial", static_cast<int>(DepthEncoding::Axial)},
+          {"radial", "Radial", static_cast<int>(DepthEncoding::Radial)}};
+}
+
+template <typename Row>
+Row renamed(Row row, const char* field) {
+  row.field = field;
+  return row;
+}
+
+std::vector<Setting<host::MapForm>> formRows() {
+  using host::MapForm;
+  return {
+      choice("layout", &MapForm::layout, "MapLayout", layouts(),
+             "of the maps that the effect gets: cube maps for point lights")
+          .withOption("--shadow-layout"),
+      choice("encoding", &MapForm::encoding, "DepthEncoding", encodings(),
+             "of their depths: distances along the axis, or from a lamp")
+          .withOption("--shadow-encoding"),
+  };
+}
+
+} // namespace
+
+const Table<LookAt>& lookAtTable() {
+  static const Table<LookAt> table{
+      "LookAt",
+      {
+          vector("eye", &LookAt::eye, Type::Place, from(-kMostPlace, kMostPlace), "look from here instead"),
+          vector("target", &LookAt::target, Type::Place, from(-kMostPlace, kMostPlace), "at this point, y up"),
+          number("fovDegrees", &LookAt::fovDegrees, between(0, 180), "vertical angle of that view, in degrees")
+              .withSlider(10, 120)
+              .in("degrees"),
+      }};
+  return table;
+}
+
+const Table<State>& pictureTable() {
+  static const Table<State> table{
+      "State",
+      {
+          number("seconds", &State::seconds, from(0, kMostSeconds), "a moment of the animation, in seconds")
+              .withOption("--time")
+              .in("s"),
+          number("width", &State::width, from(1, tyndall::kMaxImageSize), "pixels of the picture"),
+          number("height", &State::height, from(1, tyndall::kMaxImageSize), "pixels of the picture"),
+          number("supersample", &State::supersample, from(1, 8), "render N x N pixels for each one of the picture")
+              .withOption("--supersample"),
+          number("msaa", &State::msaa, only({1, 2, 4, 8}), "samples of a pixel, of colour and depth")
+              .withOption("--msaa"),
+          number("halton", &State::halton, from(0, 1024),
+                 "jitter the camera, from frame to frame, by N points of Halton's in a pixel; 0: none")
+              .withOption("--halton"),
+          number("exposureStops", &State::exposureStops, from(-100, 100), "of the PNG, in stops")
+              .withOption("--exposure", OptionForm::Value,
+                          "of the PNG, in stops (default: by the first picture's brightness)")
+              .withSlider(-10, 10)
+              .in("stops"),
+          choice("tone", &State::tone, "Tone", tones(), "of the PNG: how radiance becomes what a screen shows")
+              .withOption("--tone"),
+      }};
+  return table;
+}
+
+const Table<State>& mapsTable() {
+  static const Table<State> table = [] {
+    Table<State> made{
+        "State",
+        {
+            number("shadowSize", &State::shadowSize, from(1, tyndall::kMaxImageSize), "texels per side of a shadow map")
+                .withOption("--shadow-size")
+                .withSlider(256, 8192, true),
+            number("cascades", &State::cascades, from(1, 4), "shadow maps of a directional light")
+                .withOption("--cascades"),
+            number("cascadeFade", &State::cascadeFade, from(0, 0.5),
+                   "share of a cascade's width over which it fades into the next")
+                .withOption("--cascade-fade"),
+            renamed(part("mapForm", &State::mapForm, formRows()[0]), "layout"),
+            renamed(part("mapForm", &State::mapForm, formRows()[1]), "encoding"),
+            switchOf("avsm", &State::avsm, "smoke and strands cast shadows")
+                .withOption("--no-avsm", OptionForm::FlagOff, "smoke and strands cast no shadows"),
+            number("avsmSize", &State::avsmSize, from(1, 4096), "texels per side of a light's map of smoke and strands")
+                .withOption("--avsm-size")
+                .withSlider(32, 1024, true),
+            number("avsmNodes", &State::avsmNodes, only({4, 8, 12, 16}), "nodes of its curves")
+                .withOption("--avsm-nodes"),
+            switchOf("reversedDepth", &State::reversedDepth, "camera and shadow depth fall from 1 to 0")
+                .withOption("--reversed-depth", OptionForm::FlagOn),
+        }};
+    return made;
+  }();
+  return table;
+}
+
+} // namespace settings

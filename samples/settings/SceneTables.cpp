@@ -1,0 +1,144 @@
+// What is in the air and what lights it: Medium, Constituent, Light.
+#include "Tables.h"
+
+namespace settings {
+
+using tyndall::Constituent;
+using tyndall::Light;
+using tyndall::Medium;
+using tyndall::MediumBoundary;
+
+namespace {
+
+constexpr double kMostFloat = 3e38;
+constexpr double kMostDouble = std::numeric_limits<double>::max();
+constexpr double kRightAngle = 1.5707963267948966;
+
+std::vector<Choice> phases() {
+  using tyndall::Phase;
+  return {{"isotropic", "Isotropic", static_cast<int>(Phase::Isotropic)},
+          {"rayleigh", "Rayleigh", static_cast<int>(Phase::Rayleigh)},
+          {"henyey-greenstein", "HenyeyGreenstein", static_cast<int>(Phase::HenyeyGreenstein)},
+          {"cornette-shanks", "CornetteShanks", static_cast<int>(Phase::CornetteShanks)}};
+}
+
+std::vector<Choice> kinds() {
+  using tyndall::LightKind;
+  return {{"directional", "Directional", static_cast<int>(LightKind::Directional)},
+          {"point", "Point", static_cast<int>(LightKind::Point)},
+          {"spot", "Spot", static_cast<int>(LightKind::Spot)}};
+}
+
+Rule finite() { return from(-kMostDouble, kMostDouble); }
+
+std::vector<Setting<MediumBoundary>> boundaryRows() {
+  return {
+      switchOf("enabled", &MediumBoundary::enabled, "directional: light is attenuated from a plane on"),
+      vector("point", &MediumBoundary::point, Type::Place, finite(), "a point of that plane"),
+      vector("normal", &MediumBoundary::normal, Type::Direction, finite(), "its normal, of any length"),
+  };
+}
+
+std::vector<Setting<Light>> lightRows() {
+  std::vector<Setting<Light>> rows = {
+      choice("kind", &Light::kind, "LightKind", kinds(), "directional: a sun; point: a lamp; spot: a cone"),
+      vector("direction", &Light::direction, Type::Direction, finite(),
+             "directional, spot: where the light travels to"),
+      vector("position", &Light::position, Type::Place, finite(), "point, spot: where the lamp is"),
+      vector("colour", &Light::colour, Type::Colour, from(0, kMostFloat),
+             "directional: irradiance on a plane facing the light; point, spot: radiant intensity"),
+      number("range", &Light::range, also(tyndall::kInfinity, above(0, kMostDouble)), "point, spot: no light beyond"),
+      number("innerConeAngle", &Light::innerConeAngle, from(0, kRightAngle),
+             "spot: full intensity up to this half angle")
+          .in("rad"),
+      number("outerConeAngle", &Light::outerConeAngle, above(0, kRightAngle), "spot: none beyond this half angle")
+          .in("rad"),
+      switchOf("litOutsideViews", &Light::litOutsideViews, "visibility where no shadow view reaches"),
+      number("cascadeFade", &Light::cascadeFade, from(0, 0.5),
+             "directional: share of a cascade's width over which it fades into the next"),
+  };
+  for (const Setting<MediumBoundary>& row : boundaryRows())
+    rows.push_back(part("boundary", &Light::boundary, row));
+  return rows;
+}
+
+} // namespace
+
+const Table<Medium>& mediumTable() {
+  static const Table<Medium> table{
+      "Medium",
+      {
+          vector("absorption", &Medium::absorption, Type::Colour, from(0, kMostFloat),
+                 "absorption coefficient, 1/world unit"),
+          number("farDistance", &Medium::farDistance, also(tyndall::kInfinity, above(0, kMostDouble)),
+                 "where rays to the sky end, world units"),
+      }};
+  return table;
+}
+
+const Table<Constituent>& constituentTable() {
+  static const Table<Constituent> table{
+      "Constituent",
+      {
+          vector("scattering", &Constituent::scattering, Type::Colour, from(0, kMostFloat),
+                 "scattering coefficient, 1/world unit"),
+          choice("phase", &Constituent::phase, "Phase", phases(), "where scattered light goes"),
+          number("g", &Constituent::g, between(-1, 1),
+                 "asymmetry of HenyeyGreenstein and CornetteShanks: forward above 0, backward below")
+              .withSlider(-0.99, 0.99),
+      }};
+  return table;
+}
+
+const Table<StateLight>& lightTable() {
+  static const Table<StateLight> table = [] {
+    Table<StateLight> made{"Light",
+                           {
+                               switchOf("on", &StateLight::on, "whether it shines"),
+                               number("follows", &StateLight::follows, from(-1, 9999),
+                                      "which of the scene's lights it takes place and direction of; -1: its own"),
+                           }};
+    for (const Setting<Light>& row : lightRows()) {
+      Setting<StateLight> mine = part("light", &StateLight::light, row);
+      mine.field = row.field;
+      made.rows.push_back(std::move(mine));
+    }
+    return made;
+  }();
+  return table;
+}
+
+const std::vector<Left>& leftToEngines() {
+  const char* const texture = "a texture and how it is laid out";
+  static const std::vector<Left> left = {
+      {"Frame.viewport", "the size of the picture: \"width\", \"height\""},
+      {"Frame.colour", texture},
+      {"Frame.colourLayer", texture},
+      {"Frame.depth", texture},
+      {"Frame.camera", "matrices, of a state's camera"},
+      {"Frame.lights", "a list of lightTable()"},
+      {"Frame.medium", "mediumTable()"},
+      {"Frame.settings", "settingsTable()"},
+      {"Frame.output", texture},
+      {"Frame.reuse", "reuseTable()"},
+      {"Frame.objects", "what the engine moved"},
+      {"Medium.constituents", "a list of constituentTable()"},
+      {"Light.boundary", "its fields are rows"},
+      {"Light.shadow", texture},
+      {"Light.glass", texture},
+      {"Light.curves", texture},
+      {"Reuse.changes", "how the engine tells what it moved: --no-reuse, --detect-changes"},
+      {"Reuse.eye", "the engine's count of cameras"},
+      {"Reuse.frame", "the engine's count of frames"},
+      {"Config.loader", "the engine's"},
+      {"Config.timing", "the tool's"},
+      {"Config.programs", "the tool's: --no-program-cache"},
+      {"Config.state", "the engine's"},
+      {"Config.tuning", "tuningTable()"},
+      {"Config.checkInputs", "the tool's: --check-inputs"},
+      {"Config.warningsAreErrors", "the tool's: --strict"},
+  };
+  return left;
+}
+
+} // namespace settings

@@ -1,0 +1,48 @@
+#include "State.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace settings {
+
+std::string contradictionIn(const State& state) {
+  using tyndall::DebugView;
+  using tyndall::Technique;
+  if (state.lookAt && state.lookAt->eye == state.lookAt->target) return "camera.target: must differ from camera.eye";
+  if (std::max(renderedWidth(state), renderedHeight(state)) > tyndall::kMaxImageSize)
+    return fmt::format("picture.supersample: {} makes more than {} pixels a side", state.supersample,
+                       tyndall::kMaxImageSize);
+  for (std::size_t i = 0; state.lights && i < state.lights->size(); ++i) {
+    const tyndall::Light& light = (*state.lights)[i].light;
+    if (light.innerConeAngle > light.outerConeAngle)
+      return fmt::format("lights[{}].innerConeAngle: {} must not exceed outerConeAngle, {}", i, light.innerConeAngle,
+                         light.outerConeAngle);
+  }
+  return {};
+}
+
+std::vector<tyndall::Light> lightsOf(const std::vector<StateLight>& lights, const std::vector<tyndall::Light>& scene) {
+  std::vector<tyndall::Light> shining;
+  for (const StateLight& one : lights) {
+    if (!one.on) continue;
+    shining.push_back(one.light);
+    if (one.follows < 0 || static_cast<std::size_t>(one.follows) >= scene.size()) continue;
+    const tyndall::Light& followed = scene[static_cast<std::size_t>(one.follows)];
+    shining.back().position = followed.position;
+    shining.back().direction = followed.direction;
+  }
+  return shining;
+}
+
+std::vector<StateLight> following(const std::vector<tyndall::Light>& scene) {
+  std::vector<StateLight> lights;
+  for (const tyndall::Light& light : scene) {
+    lights.push_back({true, static_cast<int>(lights.size()), light});
+    lights.back().light.shadow = {};
+    lights.back().light.glass = {};
+    lights.back().light.curves = {};
+  }
+  return lights;
+}
+
+} // namespace settings

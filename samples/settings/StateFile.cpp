@@ -1,0 +1,179 @@
+#include "StateFile.h"
+#include "RowJson.h"
+#include "Tables.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <scene/Error.h>
+#include <scene/FileIo.h>
+
+namespace settings {
+
+namespace {
+
+Json parseJson(const std::string& text, const std::string& where) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::exception& error) {
+    refuse(where, std::string("is not JSON: ") + error.what());
+  }
+}
+
+Json jsonOf(const tyndall::Medium& medium) {
+  Json json = jsonOf(mediumTable(), medium);
+  json["constituents"] = Json::array();
+  for (const tyndall::Constituent& constituent : medium.constituents)
+    json["constituents"].push_back(jsonOf(constituentTable(), constituent));
+  return json;
+}
+
+Json jsonOf(const std::vector<StateLight>& lights) {
+  Json json = Json::array();
+  for (const StateLight& light : lights)
+    json.push_back(jsonOf(lightTable(), light));
+  return json;
+}
+
+void requireList(const Json& json, std::size_t most, const std::string& where) {
+  if (!json.is_array() || json.size() > most) refuse(where, fmt::format("must be a list of at most {}", most));
+}
+
+tyndall::Medium mediumOf(const Json& json, const std::string& where) {
+  tyndall::Medium medium;
+  readInto(mediumTable(), medium, json, where, {"constituents"});
+  if (!json.contains("constituents")) return medium;
+  const Json& list = json["constituents"];
+  requireList(list, tyndall::kMaxConstituents, where + ".constituents");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    medium.constituents.emplace_back();
+    readInto(constituentTable(), medium.constituents.back(), list[i], fmt::format("{}.constituents[{}]", where, i));
+  }
+  return medium;
+}
+
+std::vector<StateLight> lightsOf(const Json& json, const std::string& where) {
+  requireList(json, tyndall::kMaxLights, where);
+  std::vector<StateLight> lights(json.size());
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    readInto(lightTable(), lights[i], json[i], fmt::format("{}[{}]", where, i));
+  return lights;
+}
+
+Json cameraJson(const State& state) {
+  if (state.lookAt) return jsonOf(lookAtTable(), *state.lookAt);
+  return state.camera ? Json{{"scene", *state.camera}} : Json(nullptr);
+}
+
+void readCamera(State& state, const Json& json, const std::string& where) {
+  if (json.is_null()) return;
+  requireObject(json, where);
+  if (!json.contains("scene")) {
+    state.lookAt.emplace();
+    return readInto(lookAtTable(), *state.lookAt, json, where);
+  }
+  const Json& number = json["scene"];
+  constexpr int kMost = 999999;
+  const bool isWhole = number.is_number_integer() && number >= 0 && number <= kMost;
+  if (json.size() != 1) refuse(where, "is one of the scene's: no other field may stand there");
+  if (!isWhole) refuse(where + ".scene", shown(number) + fmt::format(" must be a whole number from 0 to {}", kMost));
+  state.camera = number.get<int>();
+}
+
+void readProfile(State& state, const Json& json, const std::string& where) {
+  std::string names;
+  for (const Choice& choice : kProfiles) {
+    names += (names.empty() ? "" : ", ") + std::string(choice.name);
+    if (json != choice.name) continue;
+    state.profile = static_cast<tyndall::Profile>(choice.value);
+    state.settings = tyndall::settingsOf(state.profile);
+    return;
+  }
+  refuse(where, shown(json) + " must be one of " + names);
+}
+
+void requireVersion(const Json& json, const std::string& where) {
+  requireObject(json, where);
+  if (!json.contains("version")) refuse(where, "version is missing: this is no state of the viewer's");
+  if (json["version"] != kStateVersion)
+    refuse(where + ": version", shown(json["version"]) + fmt::format(" must be {}", kStateVersion));
+}
+
+void requireKnown(const Json& json, const std::string& where) {
+  std::vector<std::string> known = {"version", "scene", "camera", "profile", "medium", "lights"};
+  State state;
+  visitTables(state, [&](const char* name, const auto&, const auto&) { known.emplace_back(name); });
+  for (const auto& member : json.items())
+    if (std::find(known.begin(), known.end(), member.key()) == known.end())
+      refuse(where, "has no field " + shown(member.key()));
+}
+
+std::filesystem::path sceneOf(const Json& json, const std::string& where, const std::filesystem::path& folder) {
+  if (!json.contains("scene")) return {};
+  const Json& name = json["scene"];
+  if (!name.is_string() || name.get<std::string>().empty()) refuse(where + ": scene", "must be the name of a file");
+  return (folder / name.get<std::string>()).lexically_normal();
+}
+
+} // namespace
+
+State parseState(const std::string& text, const std::string& where, const std::filesystem::path& folder) {
+  const Json json = parseJson(text, where);
+  requireVersion(json, where);
+  requireKnown(json, where);
+  const std::string prefix = where + ": ";
+  State state;
+  state.scene = sceneOf(json, where, folder);
+  if (json.contains("camera")) readCamera(state, json["camera"], prefix + "camera");
+  if (json.contains("profile")) readProfile(state, json["profile"], prefix + "profile");
+  visitTables(state, [&](const char* name, auto& part, const auto& table) {
+    if (json.contains(name)) readInto(table, part, json[name], prefix + name);
+  });
+  if (json.contains("medium") && !json["medium"].is_null()) state.medium = mediumOf(json["medium"], prefix + "medium");
+  if (json.contains("lights") && !json["lights"].is_null()) state.lights = lightsOf(json["lights"], prefix + "lights");
+  const std::string contradiction = contradictionIn(state);
+  if (!contradiction.empty()) throw host::Error(prefix + contradiction);
+  return state;
+}
+
+std::string textOf(const State& state, const std::filesystem::path& folder) {
+  Json json = {{"version", kStateVersion}};
+  if (!state.scene.empty()) {
+    const std::filesystem::path scene = std::filesystem::absolute(state.scene).lexically_normal();
+    json["scene"] = scene.lexically_proximate(std::filesystem::absolute(folder).lexically_normal()).string();
+  }
+  json["camera"] = cameraJson(state);
+  json["profile"] = nameOf(state.profile);
+  visitTables(state, [&](const char* name, const auto& part, const auto& table) { json[name] = jsonOf(table, part); });
+  json["medium"] = state.medium ? jsonOf(*state.medium) : Json(nullptr);
+  json["lights"] = state.lights ? jsonOf(*state.lights) : Json(nullptr);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+State loadState(const std::filesystem::path& file) {
+  constexpr std::uint64_t kMaxBytes = 1 << 20;
+  const std::vector<std::uint8_t> bytes = host::readFile(file, kMaxBytes);
+  return parseState(std::string(bytes.begin(), bytes.end()), host::printable(file.string()), file.parent_path());
+}
+
+void saveState(const std::filesystem::path& file, const State& state) {
+  host::writeText(file, textOf(state, file.parent_path()));
+}
+
+tyndall::Medium parseMedium(const std::string& text, const std::string& where) {
+  return mediumOf(parseJson(text, where), where);
+}
+
+std::vector<StateLight> parseLights(const std::string& text, const std::string& where) {
+  const std::vector<StateLight> lights = lightsOf(parseJson(text, where), where);
+  State state;
+  state.lights = lights;
+  const std::string contradiction = contradictionIn(state);
+  if (!contradiction.empty()) throw host::Error(where + ": " + contradiction);
+  return lights;
+}
+
+std::string textOf(const tyndall::Medium& medium) { return shown(jsonOf(medium)); }
+
+std::string textOf(const std::vector<StateLight>& lights) { return shown(jsonOf(lights)); }
+
+} // namespace settings

@@ -1,0 +1,75 @@
+// A second way beside the first, and a closer look.
+#include "Panels.h"
+#include "Widgets.h"
+
+namespace viewer {
+
+namespace {
+
+void chooseProfile(Session& session) {
+  for (const settings::Choice& profile : settings::kProfiles) {
+    const auto value = static_cast<tyndall::Profile>(profile.value);
+    if (profile.value > 0) ImGui::SameLine();
+    if (!ImGui::RadioButton(profile.enumerator, session.comparedProfile == value)) continue;
+    session.comparedProfile = value;
+    session.viewer.compareWith(tyndall::settingsOf(value));
+  }
+}
+
+void drawSecond(Session& session) {
+  Viewer& viewer = session.viewer;
+  ImGui::SetNextItemWidth(-1);
+  float percent = 100 * viewer.shownAs().wipe;
+  if (ImGui::SliderFloat("##wipe", &percent, 0, 100, "wipe: A to %.0f %%")) viewer.setWipe(percent / 100);
+  ImGui::Checkbox("blink (B)", &session.blinks);
+  ImGui::SameLine();
+  if (ImGui::SmallButton("B takes A's")) viewer.compareWith(viewer.state().settings);
+  ImGui::SameLine();
+  if (ImGui::SmallButton("A takes B's")) {
+    settings::State state = viewer.state();
+    state.settings = *viewer.compared();
+    state.profile = session.comparedProfile;
+    viewer.edit("settings of B", state);
+  }
+  ImGui::Text("effect: A %.1f ms, B %.1f ms", viewer.first().milliseconds(), viewer.second()->milliseconds());
+  const std::vector<Errors>& errors = viewer.meter().errors();
+  if (errors.size() > 1)
+    ImGui::Text("rRMSE: A %.3g %%, B %.3g %%\np99:   A %.3g %%, B %.3g %%", 100 * errors[0].rRmse,
+                100 * errors[1].rRmse, 100 * errors[0].p99, 100 * errors[1].p99);
+  ImGui::Separator();
+  ImGui::TextUnformatted("Settings of B");
+  chooseProfile(session);
+  tyndall::Settings edited = *viewer.compared();
+  std::string field;
+  if (editRows(settings::settingsTable(), edited, tyndall::settingsOf(session.comparedProfile), field, {"debugView"}))
+    viewer.compareWith(edited);
+}
+
+} // namespace
+
+void drawComparePanel(Session& session) {
+  Viewer& viewer = session.viewer;
+  bool isCompared = viewer.compared().has_value();
+  if (ImGui::Checkbox("compare A, the settings, with B", &isCompared)) {
+    viewer.compareWith(isCompared ? std::optional(tyndall::settingsOf(session.comparedProfile)) : std::nullopt);
+    viewer.setWipe(0.5F);
+  }
+  ImGui::Checkbox("magnifier (M)", &session.hasMagnifier);
+  settings::State state = viewer.state();
+  const settings::Setting<tyndall::Settings>& row = settings::settingsTable()["debugView"];
+  settings::Value value = row.get(state.settings);
+  if (editValue(row, value, row.get(tyndall::Settings()))) {
+    row.set(state.settings, value);
+    viewer.edit("settings.debugView", state);
+  }
+  if (state.settings.debugView == tyndall::DebugView::Difference) {
+    float percent = 100 * viewer.shownAs().differenceScale;
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::SliderFloat("##scale", &percent, 0.1F, 100, "full colour at %.1f %% of the mean",
+                           ImGuiSliderFlags_Logarithmic))
+      viewer.setDifferenceScale(std::max(percent, 0.1F) / 100);
+  }
+  if (viewer.second()) drawSecond(session);
+}
+
+} // namespace viewer

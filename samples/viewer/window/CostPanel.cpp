@@ -1,0 +1,103 @@
+// What the effect costs, and what it errs.
+#include "Panels.h"
+#include "Widgets.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viewer {
+
+namespace {
+
+ImU32 colourOf(std::size_t index) {
+  float r = 0, g = 0, b = 0;
+  ImGui::ColorConvertHSVtoRGB(std::fmod(0.61F * static_cast<float>(index), 1.0F), 0.55F, 0.9F, r, g, b);
+  return ImGui::ColorConvertFloat4ToU32(ImVec4(r, g, b, 1));
+}
+
+/// One bar, as wide as the panel, of all passes; then a line each.
+void drawPasses(const tyndall::Statistics& statistics) {
+  double sum = 0;
+  for (const tyndall::PassStatistics& pass : statistics.passes)
+    sum += pass.milliseconds;
+  const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetFrameHeight();
+  ImVec2 corner = ImGui::GetCursorScreenPos();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  for (std::size_t i = 0; i < statistics.passes.size(); ++i) {
+    const auto part = static_cast<float>(sum > 0 ? width * statistics.passes[i].milliseconds / sum : 0);
+    list.AddRectFilled(corner, ImVec2(corner.x + part, corner.y + height), colourOf(i));
+    corner.x += part;
+  }
+  ImGui::Dummy(ImVec2(width, height));
+  for (std::size_t i = 0; i < statistics.passes.size(); ++i) {
+    const tyndall::PassStatistics& pass = statistics.passes[i];
+    if (!pass.skipped.empty()) {
+      ImGui::TextDisabled("   %s", pass.name.c_str());
+      tooltip("skipped: " + pass.skipped);
+      continue;
+    }
+    ImGui::PushStyleColor(ImGuiCol_Text, colourOf(i));
+    ImGui::TextUnformatted("#");
+    ImGui::PopStyleColor();
+    ImGui::SameLine();
+    ImGui::TextUnformatted(pass.name.c_str());
+    ImGui::SameLine(0.7F * width);
+    ImGui::Text("%8.2f ms", pass.milliseconds);
+  }
+}
+
+void drawErrors(const char* name, const Errors& errors) {
+  ImGui::Text("%s rRMSE %.3g %%  p99 %.3g %%", name, 100 * errors.rRmse, 100 * errors.p99);
+  tooltip("of the inscatter, against technique exact, over its mean");
+}
+
+void drawError(Viewer& viewer) {
+  ImGui::Separator();
+  ImGui::TextUnformatted("Error against Exact");
+  ImGui::SameLine();
+  ImGui::Checkbox("measure at rest", &viewer.measuresErrors);
+  const ErrorMeter& meter = viewer.meter();
+  if (meter.errors().empty()) return ImGui::TextDisabled("not known");
+  ImGui::ProgressBar(static_cast<float>(meter.share()), ImVec2(-1, 0), meter.isComplete() ? "complete" : nullptr);
+  drawErrors(viewer.second() ? "A" : "", meter.errors()[0]);
+  if (viewer.second() && meter.errors().size() > 1) drawErrors("B", meter.errors()[1]);
+}
+
+void drawTimes(const FrameTimes& times) {
+  ImGui::Separator();
+  ImGui::Text("Frame times: median %.0f ms, 95 %% %.0f ms", static_cast<double>(times.quantile(0.5)),
+              static_cast<double>(times.quantile(0.95)));
+  if (times.times().empty()) return;
+  ImGui::PlotLines("##times", times.times().data(), static_cast<int>(times.times().size()), 0, nullptr, 0,
+                   1.2F * times.quantile(1), ImVec2(ImGui::GetContentRegionAvail().x, 48));
+}
+
+} // namespace
+
+void drawCostPanel(Session& session) {
+  Viewer& viewer = session.viewer;
+  if (!viewer.scene() || viewer.first().width() == 0) return ImGui::TextDisabled("no picture yet");
+  double target = viewer.quality.target();
+  const double low = 5, high = 500;
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::SliderScalar("##target", ImGuiDataType_Double, &target, &low, &high, "%.0f ms a frame while things move",
+                          ImGuiSliderFlags_Logarithmic))
+    viewer.quality.setTarget(std::clamp(target, low, high));
+  const tyndall::Statistics& statistics = viewer.first().statistics();
+  ImGui::Text("%dx%d, %s", viewer.first().width(), viewer.first().height(),
+              viewer.isSettled() ? "at full quality" : "adapted");
+  ImGui::Text("maps and surfaces %.1f ms, effect %.1f ms", viewer.sceneMilliseconds(), viewer.first().milliseconds());
+  drawPasses(statistics);
+  ImGui::Text("%.1f MiB, %llu samples marched, %llu fix-up pixels", static_cast<double>(statistics.bytes) / (1 << 20),
+              static_cast<unsigned long long>(statistics.marchedSamples),
+              static_cast<unsigned long long>(statistics.fixupPixels));
+  ImGui::Text("redrawn %.0f %%, %d programs", 100 * statistics.redrawnShare, statistics.compiledPrograms);
+  drawError(viewer);
+  drawTimes(viewer.frameTimes());
+  for (const std::string& warning : statistics.warnings)
+    ImGui::TextWrapped("warning: %s", warning.c_str());
+  for (const std::string& note : viewer.notes())
+    ImGui::TextWrapped("note: %s", note.c_str());
+}
+
+} // namespace viewer

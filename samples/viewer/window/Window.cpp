@@ -1,0 +1,225 @@
+#include "Window.h"
+#include "Layout.h"
+#include "Picture.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <cmath>
+#include <gl/Gl.h>
+#include <scene/Error.h>
+#include <scene/FileIo.h>
+#include <scene/Places.h>
+#include <scene/ProgramFiles.h>
+
+namespace viewer {
+
+namespace {
+
+constexpr double kMeasuredPause = 0.25; ///< seconds between two looks at how far the error is
+
+void* load(const char* name) { return reinterpret_cast<void*>(glfwGetProcAddress(name)); }
+
+std::string lastError() {
+  const char* description = nullptr;
+  glfwGetError(&description);
+  return description ? description : "no reason given";
+}
+
+GLFWwindow* makeWindow(const Layout& layout) {
+  if (!glfwInit()) throw host::Error("no window: GLFW cannot start: " + lastError());
+  for (const auto& [major, minor] : {std::pair{4, 5}, std::pair{4, 3}, std::pair{4, 1}, std::pair{3, 3}}) {
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, major);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, minor);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    if (GLFWwindow* window = glfwCreateWindow(layout.width, layout.height, "Tyndall viewer", nullptr, nullptr))
+      return window;
+  }
+  const std::string reason = lastError();
+  glfwTerminate();
+  throw host::Error("no window with OpenGL 3.3: " + reason);
+}
+
+tyndall::ProgramStore keptPrograms() {
+  const auto folder = host::programFolder();
+  return folder ? host::programFiles(*folder) : tyndall::ProgramStore();
+}
+
+Window& windowOf(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
+
+} // namespace
+
+Window::Window() {
+  const Layout layout = loadLayout();
+  window_ = makeWindow(layout);
+  showsPanel_ = layout.showsPanel;
+  glfwSetWindowUserPointer(window_, this);
+  context_ = host::Context::adopt(
+      load, [this](bool isCurrent) { glfwMakeContextCurrent(isCurrent ? window_ : nullptr); }, {false});
+  glfwSwapInterval(1);
+  viewer_ = std::make_unique<Viewer>(*context_, keptPrograms());
+  session_ = std::make_unique<Session>(*viewer_);
+  session_->thumbnails.load(host::placeOf("scenes", TYNDALL_SCENES_DIR), TYNDALL_GALLERY_DIR);
+  setCallbacks();
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr; // the layout is ours
+  float scaleX = 1, scaleY = 1;
+  glfwGetWindowContentScale(window_, &scaleX, &scaleY);
+  setScale(std::max(scaleX, scaleY));
+  ImGui_ImplGlfw_InitForOpenGL(window_, true);
+  ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+Window::~Window() {
+  keepLayout();
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+  session_.reset();
+  viewer_.reset();
+  context_.reset();
+  glfwDestroyWindow(window_);
+  glfwTerminate();
+}
+
+void Window::setScale(float scale) {
+  scale_ = scale;
+  ImFontConfig font;
+  font.SizePixels = std::floor(13 * scale);
+  ImGui::GetIO().Fonts->AddFontDefault(&font);
+  ImGui::StyleColorsDark();
+  ImGui::GetStyle().ScaleAllSizes(scale);
+}
+
+// Dear ImGui calls those that were set before it came.
+void Window::setCallbacks() {
+  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int mods) {
+    if (action != GLFW_RELEASE) windowOf(w).key(key, mods);
+    windowOf(w).wake();
+  });
+  glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double steps) {
+    windowOf(w).scroll(steps);
+    windowOf(w).wake();
+  });
+  glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** files) {
+    if (count > 0) windowOf(w).open(files[0]);
+    windowOf(w).wake();
+  });
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { windowOf(w).wake(); });
+  // A press must find under the mouse what is there: so that is drawn before Dear ImGui knows of the press.
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
+    if (action == GLFW_PRESS) windowOf(w).drawInterface(button);
+    windowOf(w).wake();
+  });
+  glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { windowOf(w).wake(); });
+  glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { windowOf(w).wake(); });
+  glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { windowOf(w).wake(); });
+}
+
+void Window::open(const std::filesystem::path& file) {
+  if (file.extension() == ".json")
+    viewer_->openState(file);
+  else
+    viewer_->open(file);
+}
+
+void Window::run(const std::filesystem::path& file) {
+  layOut();
+  if (!file.empty()) open(file);
+  while (!glfwWindowShouldClose(window_)) {
+    navigate();
+    blink();
+    const Activity activity = viewer_->update(glfwGetTime());
+    if (std::optional<Message> message = viewer_->takeMessage()) {
+      session_->message = *message;
+      wake();
+    }
+    const bool isDue = activity == Activity::Drew || glfwGetTime() - lastDrawn_ > kMeasuredPause;
+    if (framesToDraw_ > 0 || (activity != Activity::Idle && isDue)) drawInterface();
+    waitForEvents(activity);
+  }
+}
+
+// Nothing is done at rest until something happens.
+void Window::waitForEvents(Activity activity) {
+  constexpr double kPause = 0.02;
+  const bool isBusy = activity == Activity::Drew || activity == Activity::Measured || framesToDraw_ > 0 || isFlying_;
+  if (isBusy)
+    glfwPollEvents();
+  else if (activity == Activity::Waiting || session_->blinks)
+    glfwWaitEventsTimeout(kPause);
+  else
+    glfwWaitEvents();
+}
+
+void Window::layOut() {
+  int width = 0, height = 0, pixelWidth = 0, pixelHeight = 0;
+  glfwGetWindowSize(window_, &width, &height);
+  glfwGetFramebufferSize(window_, &pixelWidth, &pixelHeight);
+  if (width < 1 || height < 1) return; // minimised
+  panelWidth_ = showsPanel_ ? std::min(kPanelWidth * scale_, 0.6F * static_cast<float>(width)) : 0;
+  const double pixels = static_cast<double>(pixelWidth) / width;
+  viewer_->resize(pixelWidth - static_cast<int>(panelWidth_ * pixels), pixelHeight);
+}
+
+void Window::drawInterface(int unknownPress) {
+  layOut();
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  if (unknownPress >= 0 && unknownPress < ImGuiMouseButton_COUNT) ImGui::GetIO().MouseDown[unknownPress] = false;
+  ImGui::NewFrame();
+  drawPicture();
+  if (showsPanel_) drawPanel();
+  drawStatus();
+  drawHelp(*session_);
+  if (const auto file = session_->dialog.draw()) takeFile(*file);
+  if (!ImGui::IsAnyItemActive() && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) viewer_->endEdit();
+  ImGui::Render();
+  int width = 0, height = 0;
+  glfwGetFramebufferSize(window_, &width, &height);
+  const GladGLContext& gl = host::gl();
+  gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  gl.Viewport(0, 0, width, height);
+  gl.Disable(GL_SCISSOR_TEST);
+  gl.ClearColor(0, 0, 0, 1);
+  gl.Clear(GL_COLOR_BUFFER_BIT);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  glfwSwapBuffers(window_);
+  if (framesToDraw_ > 0) --framesToDraw_;
+  lastDrawn_ = glfwGetTime();
+}
+
+void Window::takeFile(const std::filesystem::path& file) {
+  switch (session_->asked) {
+  case Session::Asked::Scene:
+    return viewer_->open(file);
+  case Session::Asked::LoadState:
+    return viewer_->openState(file);
+  case Session::Asked::SaveState:
+    return viewer_->saveState(file);
+  case Session::Asked::SavePicture:
+    return viewer_->savePicture(file);
+  }
+}
+
+void Window::blink() {
+  constexpr double kPeriod = 0.5;
+  const bool isSecond = session_->blinks && std::fmod(glfwGetTime(), 2 * kPeriod) > kPeriod;
+  if (!viewer_->second()) session_->blinks = false;
+  if (isSecond == viewer_->showsSecond()) return;
+  viewer_->showSecond(isSecond && viewer_->second());
+  wake();
+}
+
+void Window::keepLayout() const {
+  Layout layout;
+  glfwGetWindowSize(window_, &layout.width, &layout.height);
+  layout.showsPanel = showsPanel_;
+  saveLayout(layout);
+}
+
+} // namespace viewer

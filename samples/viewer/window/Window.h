@@ -1,0 +1,58 @@
+// The viewer's window: GLFW, Dear ImGui, and what keys and mouse do.
+#pragma once
+
+#include "Panels.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+struct GLFWwindow;
+
+namespace viewer {
+
+class Window {
+public:
+  /// Throws host::Error without a display or OpenGL 3.3.
+  Window();
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  /// Until it is closed. `scene`: to begin with, a scene or a state; empty: none.
+  void run(const std::filesystem::path& scene);
+
+private:
+  void setScale(float scale);
+  void setCallbacks();
+  void wake() { framesToDraw_ = 3; }
+  void open(const std::filesystem::path& file);
+  void key(int key, int mods);
+  void control(int key);
+  void scroll(double steps);
+  void waitForEvents(Activity activity);
+  void layOut();
+  void drawInterface(int unknownPress = -1); ///< as if that button were not down
+  void drawPicture();
+  void drawStatus();
+  void drawPanel();
+  void takeFile(const std::filesystem::path& file);
+  void navigate();
+  void blink();
+  void keepLayout() const;
+
+  GLFWwindow* window_ = nullptr;
+  std::unique_ptr<host::Context> context_;
+  std::unique_ptr<Viewer> viewer_;
+  std::unique_ptr<Session> session_;
+  float scale_ = 1;      ///< of the interface, by the display
+  float panelWidth_ = 0; ///< in window units, 0 while hidden
+  bool showsPanel_ = true;
+  bool isFlying_ = false;  ///< a key is down
+  bool isHandled_ = false; ///< the mouse drags a handle, not the view
+  double lastFlight_ = 0;
+  int framesToDraw_ = 3; ///< Dear ImGui takes some to come to rest
+  double lastDrawn_ = 0;
+};
+
+} // namespace viewer

@@ -1,0 +1,128 @@
+#include "RandomState.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <settings/Tables.h>
+
+namespace tests {
+
+namespace {
+
+using settings::Row;
+using settings::Rule;
+using settings::Value;
+
+int below(int count, std::mt19937& random) { return std::uniform_int_distribution<int>(0, count - 1)(random); }
+
+double randomNumber(const Row& row, std::mt19937& random) {
+  const Rule& rule = row.rule;
+  if (!rule.only.empty()) return rule.only[static_cast<std::size_t>(below(static_cast<int>(rule.only.size()), random))];
+  const double share = std::uniform_real_distribution<double>(0, 1)(random);
+  const int way = below(6, random);
+  double number = rule.low / 2 * (1 - share) * 2 + rule.high * share;
+  if (way == 0 && !rule.isLowOpen) number = rule.low;
+  if (way == 1 && !rule.isHighOpen) number = rule.high;
+  if (way > 1 && rule.high > 1e9) number = rule.low < 0 ? 100 * share - 50 : 100 * share; // as people have them
+  if (row.type == settings::Type::Whole) number = std::floor(number / rule.multipleOf) * rule.multipleOf;
+  return rule.low <= 0 ? number : std::max(number, rule.low);
+}
+
+template <typename Owner>
+void randomise(Owner& owner, const settings::Table<Owner>& table, std::mt19937& random) {
+  for (const auto& row : table.rows)
+    if (below(3, random) > 0) row.set(owner, randomValue(row, random));
+}
+
+void randomiseScene(settings::State& state, std::mt19937& random) {
+  if (below(2, random) == 0) {
+    state.lookAt.emplace();
+    randomise(*state.lookAt, settings::lookAtTable(), random);
+  } else if (below(2, random) == 0) {
+    state.camera = below(10, random);
+  }
+  if (below(2, random) == 0) {
+    state.medium.emplace();
+    randomise(*state.medium, settings::mediumTable(), random);
+    state.medium->constituents.resize(static_cast<std::size_t>(below(tyndall::kMaxConstituents + 1, random)));
+    for (tyndall::Constituent& constituent : state.medium->constituents)
+      randomise(constituent, settings::constituentTable(), random);
+  }
+  if (below(2, random) == 0) {
+    state.lights.emplace(static_cast<std::size_t>(below(tyndall::kMaxLights + 1, random)));
+    for (settings::StateLight& light : *state.lights) {
+      randomise(light, settings::lightTable(), random);
+      light.light.innerConeAngle = std::min(light.light.innerConeAngle, light.light.outerConeAngle);
+    }
+  }
+}
+
+template <typename Owner>
+void compare(std::vector<std::string>& differences, const std::string& where, const settings::Table<Owner>& table,
+             const Owner& a, const Owner& b) {
+  for (const auto& row : table.rows)
+    if (row.get(a) != row.get(b)) differences.push_back(where + "." + row.field);
+}
+
+template <typename List>
+bool haveOneLength(const List& a, const List& b) {
+  return a.has_value() == b.has_value() && (!a || a->size() == b->size());
+}
+
+void compareScenes(std::vector<std::string>& found, const settings::State& a, const settings::State& b) {
+  if (a.scene != b.scene) found.emplace_back("scene");
+  if (a.camera != b.camera || a.lookAt.has_value() != b.lookAt.has_value()) found.emplace_back("camera");
+  if (a.lookAt && b.lookAt) compare(found, "camera", settings::lookAtTable(), *a.lookAt, *b.lookAt);
+  if (!haveOneLength(a.lights, b.lights)) return found.emplace_back("lights"), void();
+  for (std::size_t i = 0; a.lights && i < a.lights->size(); ++i)
+    compare(found, fmt::format("lights[{}]", i), settings::lightTable(), (*a.lights)[i], (*b.lights)[i]);
+  if (a.medium.has_value() != b.medium.has_value()) return found.emplace_back("medium"), void();
+  if (!a.medium) return;
+  compare(found, "medium", settings::mediumTable(), *a.medium, *b.medium);
+  if (a.medium->constituents.size() != b.medium->constituents.size())
+    return found.emplace_back("medium.constituents"), void();
+  for (std::size_t i = 0; i < a.medium->constituents.size(); ++i)
+    compare(found, fmt::format("medium.constituents[{}]", i), settings::constituentTable(), a.medium->constituents[i],
+            b.medium->constituents[i]);
+}
+
+} // namespace
+
+Value randomValue(const Row& row, std::mt19937& random) {
+  if (row.rule.mayBeUnset && below(3, random) == 0) return Value::none();
+  if (!row.rule.also.empty() && below(4, random) == 0) return row.rule.also.front();
+  for (;;) {
+    Value value;
+    value.count = row.count();
+    for (int i = 0; i < value.count; ++i)
+      value.numbers[static_cast<std::size_t>(i)] = randomNumber(row, random);
+    if (breachOf(row, value).empty()) return value;
+  }
+}
+
+settings::State randomState(unsigned seed) {
+  std::mt19937 random(seed);
+  for (;;) {
+    settings::State state;
+    state.scene = "scenes/it's a nave.glb";
+    state.profile = static_cast<tyndall::Profile>(below(4, random));
+    state.settings = tyndall::settingsOf(state.profile);
+    settings::visitTables(state, [&](const char*, auto& part, const auto& table) { randomise(part, table, random); });
+    randomiseScene(state, random);
+    if (contradictionIn(state).empty()) return state;
+  }
+}
+
+std::vector<std::string> differences(const settings::State& a, const settings::State& b) {
+  std::vector<std::string> found;
+  compareScenes(found, a, b);
+  if (a.profile != b.profile) found.emplace_back("profile");
+  compare(found, "picture", settings::pictureTable(), a, b);
+  compare(found, "maps", settings::mapsTable(), a, b);
+  compare(found, "settings", settings::settingsTable(), a.settings, b.settings);
+  compare(found, "reuse", settings::reuseTable(), a.reuse, b.reuse);
+  compare(found, "tuning", settings::tuningTable(), a.tuning, b.tuning);
+  return found;
+}
+
+} // namespace tests

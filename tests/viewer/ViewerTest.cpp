@@ -1,0 +1,253 @@
+// The viewer as its window uses it.
+#include "../settings/RandomState.h"
+#include "ViewerRig.h"
+
+#include <gl/ReadBack.h>
+#include <scene/Error.h>
+#include <scene/ImageFile.h>
+#include <settings/StateFile.h>
+#include <settings/Tables.h>
+
+using viewer::Activity;
+
+TEST_CASE("a viewer without a scene does nothing") {
+  tests::ViewerRig rig;
+  rig.step();
+  CHECK(rig.last == Activity::Idle);
+  rig.viewer.frameAll();
+  rig.viewer.useSceneCamera(3);
+  rig.viewer.setView(rig.viewer.view());
+  rig.viewer.undo();
+  rig.viewer.savePicture("/tmp/no-scene.png");
+  CHECK(rig.error() == "there is no picture to save: no scene is loaded");
+  CHECK_FALSE(std::filesystem::exists("/tmp/no-scene.png"));
+}
+
+TEST_CASE("a picture is whole soon after the last change, and then nothing is done") {
+  tests::ViewerRig rig;
+  rig.load("projector");
+  rig.settle();
+  CHECK(rig.viewer.first().width() == 96);
+  for (int i = 0; i < 10; ++i) {
+    rig.step();
+    CHECK(rig.last == Activity::Idle);
+  }
+  rig.viewer.setView(viewer::orbited(rig.viewer.view(), 0.1, 0));
+  rig.step();
+  CHECK(rig.last == Activity::Drew);
+  CHECK(rig.viewer.first().width() < 96); // fewer pixels while it moves
+  CHECK_FALSE(rig.viewer.isSettled());
+  rig.settle();
+  CHECK(rig.viewer.first().width() == 96);
+}
+
+TEST_CASE("a scene that cannot be loaded is a message, and the old one stays") {
+  tests::ViewerRig rig;
+  rig.load("projector");
+  rig.settle();
+  rig.viewer.open("/nowhere/a.glb");
+  rig.runUntil([&] { return !rig.viewer.loader().isLoading(); });
+  CHECK_THAT(rig.error(), Catch::Contains("/nowhere/a.glb"));
+  CHECK(rig.viewer.state().scene == tests::sceneFile("projector"));
+  CHECK(rig.viewer.scene());
+  rig.settle();
+}
+
+TEST_CASE("a scene that is deleted while it is shown stays, and states of it are saved") {
+  const std::filesystem::path copy = std::filesystem::temp_directory_path() / "tyndall-deleted.glb";
+  std::filesystem::copy_file(tests::sceneFile("projector"), copy, std::filesystem::copy_options::overwrite_existing);
+  tests::ViewerRig rig;
+  rig.viewer.open(copy);
+  rig.runUntil([&] { return !rig.viewer.loader().isLoading(); });
+  std::filesystem::remove(copy);
+  rig.viewer.setView(viewer::orbited(rig.viewer.view(), 0.1, 0));
+  rig.settle();
+  CHECK(rig.error().empty());
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "tyndall-deleted.json";
+  rig.viewer.saveState(file);
+  CHECK(rig.error().empty());
+  rig.viewer.openState(file); // of the scene that is there
+  CHECK(rig.error().empty());
+  CHECK_FALSE(rig.viewer.loader().isLoading());
+  std::filesystem::remove(file);
+}
+
+TEST_CASE("exact is drawn in steps") {
+  tests::ViewerRig rig(640, 360);
+  rig.load("projector");
+  rig.settle();
+  settings::State state = rig.viewer.state();
+  state.settings.technique = tyndall::Technique::Exact;
+  rig.viewer.quality.setTarget(20);
+  rig.viewer.edit("technique", state);
+  CHECK(rig.settle() > 5);
+  CHECK(rig.viewer.first().statistics().marchedSamples == 640 * 360);
+}
+
+TEST_CASE("two ways are drawn beside each other, each with its error") {
+  tests::ViewerRig rig;
+  rig.load("projector");
+  tyndall::Settings fast = tyndall::settingsOf(tyndall::Profile::Performance);
+  rig.viewer.compareWith(fast);
+  rig.viewer.measuresErrors = true;
+  rig.viewer.setWipe(0.5F);
+  rig.settle();
+  REQUIRE(rig.viewer.second());
+  REQUIRE(rig.viewer.meter().errors().size() == 2);
+  CHECK(rig.viewer.meter().errors()[0].rRmse < rig.viewer.meter().errors()[1].rRmse);
+  rig.viewer.compareWith(std::nullopt);
+  rig.settle();
+  CHECK_FALSE(rig.viewer.second());
+  CHECK(rig.viewer.meter().errors().size() == 1);
+}
+
+TEST_CASE("an animation plays and can be stopped") {
+  tests::ViewerRig rig;
+  rig.load("pendulum");
+  CHECK(rig.viewer.duration() > 0);
+  rig.viewer.playback.isPlaying = true;
+  for (int i = 0; i < 10; ++i)
+    rig.step();
+  const double seconds = rig.viewer.state().seconds;
+  CHECK(seconds > 0.1);
+  rig.viewer.playback.isPlaying = false;
+  rig.settle();
+  CHECK(rig.viewer.state().seconds == seconds);
+}
+
+TEST_CASE("what is shown is what host::toneMap makes of the picture") {
+  tests::ViewerRig rig;
+  rig.load("projector");
+  for (const host::Tone tone : {host::Tone::Film, host::Tone::Reinhard, host::Tone::Clip}) {
+    settings::State state = rig.viewer.state();
+    state.exposureStops = -1;
+    state.tone = tone;
+    rig.viewer.edit("tone", state);
+    rig.settle();
+    const std::vector<float> shown = host::readColour(rig.viewer.picture(), 96, 54, 3);
+    const std::vector<float> radiance = host::readColour(rig.viewer.first().composite(), 96, 54, 3);
+    const std::vector<std::uint8_t> wanted = host::toneMap(radiance.data(), 96, 54, 0.5F, 1, tone);
+    float largest = 0;
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      largest = std::max(largest, std::abs(255 * shown[i] - static_cast<float>(wanted[i])));
+    CAPTURE(static_cast<int>(tone));
+    CHECK(largest <= 1.01F);
+  }
+}
+
+TEST_CASE("pictures are saved as they are shown") {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  tests::ViewerRig rig;
+  rig.load("projector");
+  rig.viewer.savePicture(folder / "tyndall-saved.exr");
+  CHECK(rig.error().empty());
+  const host::Image image = host::readExr(folder / "tyndall-saved.exr");
+  CHECK(image.width == 96);
+  CHECK(image.find("inscatter.R"));
+  rig.viewer.savePicture(folder / "tyndall-saved.png");
+  CHECK(host::isWholePng(folder / "tyndall-saved.png", 96, 54));
+  rig.viewer.savePicture(folder / "tyndall-saved.jpg");
+  CHECK_THAT(rig.error(), Catch::Contains("must end in .exr or .png"));
+  rig.viewer.savePicture("/proc/a.png");
+  CHECK_THAT(rig.error(), Catch::Contains("/proc/a.png"));
+  rig.settle();
+}
+
+TEST_CASE("a state that contradicts itself is not taken") {
+  tests::ViewerRig rig;
+  rig.load("projector");
+  settings::State state = rig.viewer.state();
+  state.lights.emplace(1);
+  (*state.lights)[0].light.innerConeAngle = 1;
+  rig.viewer.edit("cone", state);
+  CHECK_THAT(rig.error(), Catch::Contains("lights[0].innerConeAngle: 1 must not exceed outerConeAngle"));
+  CHECK_FALSE(rig.viewer.state().lights);
+}
+
+TEST_CASE("a frame that the effect refuses is a message once, and the next edit is drawn") {
+  tests::ViewerRig rig;
+  rig.load("projector");
+  settings::State state = rig.viewer.state();
+  state.settings.technique = tyndall::Technique::Tree;
+  state.settings.debugView = tyndall::DebugView::Samples; // of epipolar
+  rig.viewer.edit("view", state);
+  rig.runUntil([&] { return rig.last == Activity::Idle; });
+  CHECK_THAT(rig.error(), Catch::Contains("settings.debugView"));
+  rig.step();
+  CHECK(rig.error().empty());
+  rig.viewer.undo();
+  rig.settle();
+  CHECK(rig.error().empty());
+}
+
+TEST_CASE("a camera that the scene does not have is a message, and the view can be moved on") {
+  tests::ViewerRig rig;
+  rig.load("projector");
+  rig.settle();
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "tyndall-camera.json";
+  settings::State state = rig.viewer.state();
+  state.camera = 77;
+  settings::saveState(file, state);
+  rig.viewer.openState(file);
+  rig.runUntil([&] { return rig.last == Activity::Idle; });
+  CHECK_THAT(rig.error(), Catch::Contains("camera"));
+  rig.viewer.setView(viewer::orbited(rig.viewer.view(), 0.1, 0));
+  rig.settle();
+  CHECK(rig.error().empty());
+  std::filesystem::remove(file);
+}
+
+TEST_CASE("smoke's shadows follow their settings") {
+  tests::ViewerRig rig;
+  rig.load("smoke");
+  rig.settle();
+  const auto inscatter = [&] {
+    rig.settle();
+    CHECK(rig.error().empty());
+    return host::readColour(rig.viewer.first().inscatter(), 96, 54);
+  };
+  const std::vector<float> with = inscatter();
+  settings::State state = rig.viewer.state();
+  state.avsm = false;
+  rig.viewer.edit("avsm", state);
+  CHECK(inscatter() != with);
+  state.avsm = true;
+  rig.viewer.edit("avsm again", state);
+  CHECK(inscatter() == with);
+}
+
+TEST_CASE("samples of a pixel may be any number that is offered") {
+  tests::ViewerRig rig;
+  rig.load("projector");
+  for (const int samples : {2, 4, 8, 1}) {
+    settings::State state = rig.viewer.state();
+    state.msaa = samples;
+    rig.viewer.edit("msaa", state);
+    rig.settle();
+    CHECK(rig.error().empty());
+    CHECK(rig.viewer.surfaces().multisampled() == (samples > 1));
+    CHECK(rig.viewer.pixelAt(0.5, 0.5).distance > 0);
+  }
+}
+
+TEST_CASE("any setting may be changed at any time") {
+  tests::ViewerRig rig(64, 36);
+  rig.load("projector");
+  std::mt19937 random(11);
+  for (int i = 0; i < 150; ++i) {
+    settings::State state = rig.viewer.state();
+    settings::visitTables(state, [&](const std::string& name, auto& part, const auto& table) {
+      if (name == "picture" || name == "maps") return; // of any size
+      const std::size_t index = random() % table.rows.size();
+      if (random() % 3 == 0) table.rows[index].set(part, tests::randomValue(table.rows[index], random));
+    });
+    if (random() % 4 == 0) rig.viewer.setView(viewer::orbited(rig.viewer.view(), 0.3, 0.1));
+    rig.viewer.edit("edit " + std::to_string(i), state);
+    if (random() % 5 == 0) rig.viewer.undo();
+    rig.step();
+    if (random() % 4 == 0) rig.runUntil([&] { return rig.last == Activity::Idle; });
+    const std::string error = rig.error();
+    CAPTURE(i, error);
+    CHECK((error.empty() || error.find("settings.debugView") != std::string::npos));
+  }
+}
