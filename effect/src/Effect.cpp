@@ -30,7 +30,7 @@
 namespace tyndall {
 
 // A frame is planned before anything is drawn: whatever refuses or fails does so while it is (plan/PlanFrame.cpp). The
-// rest cannot fail but by a lost context.
+// rest cannot fail but by a lost context; Config::betweenDraws may give it up.
 Status Effect::State::render(const Frame& given) {
   warnings.clear();
   if (Status s = checkFields(given, warnings); !s) return s;
@@ -46,7 +46,8 @@ Status Effect::State::render(const Frame& given) {
   frame.camera = steadyCamera(frame, eye);
   PlannedFrame planned;
   Status status = planFrame(frame, textures, eye, planned);
-  if (status) draw(given, planned, guard);
+  if (status && !draw(given, planned, guard))
+    status = {StatusCode::Abandoned, "Config::betweenDraws returned false: the rest of the frame was not drawn"};
   keep(frame, eye, status ? &planned : nullptr);
   return status;
 }
@@ -103,19 +104,21 @@ Status Effect::State::planFrame(const Frame& frame, const FrameTextures& texture
   return blocks.upload(planned.plan, limits.blockAlignment);
 }
 
-void Effect::State::draw(const Frame& given, const PlannedFrame& planned, gl::StateGuard& guard) {
+bool Effect::State::draw(const Frame& given, const PlannedFrame& planned, gl::StateGuard& guard) {
   const UnitsUsed units = unitsOf(planned.plan);
   guard.saveUnits(units.count, units.kinds);
   if (units.stencil) guard.saveStencil();
   if (units.scissor) guard.saveScissorBox();
   if (units.copies || planned.checks != 0) guard.saveReadFramebuffer();
   recorder.countMarched(planned.plan.marched);
-  drawPlan(planned.plan, gl, {vertexArray.name(), nearestSampler.name(), planned.empty, blocks}, recorder, paces);
-  visits = planned.visits;
-  if (planned.checks != 0)
+  const DrawObjects objects{vertexArray.name(), nearestSampler.name(), planned.empty, blocks};
+  const bool isWhole = drawPlan(planned.plan, gl, objects, recorder, paces, betweenDraws);
+  visits = isWhole ? planned.visits : 0;
+  if (isWhole && planned.checks != 0)
     inputChecks.ask(planned.checks, given, planned.checkedLights, stateMode);
   else if (checksInputs)
     inputChecks.forget(given);
+  return isWhole;
 }
 
 // All that is planned sees the camera without its jitter, as the eye's last frame saw it if that has not moved.

@@ -23,12 +23,13 @@ enum class Draws { All, CheckOnly };
 struct Effect::State {
   explicit State(const Config& config)
       : stateMode(config.state), checksInputs(config.checkInputs), warningsAreErrors(config.warningsAreErrors),
-        tuning(config.tuning), watch(gl), programs(gl, config.programs), framebuffers(gl), targets(gl, framebuffers),
+        tuning(config.tuning), betweenDraws(config.betweenDraws), watch(gl), programs(gl, config.programs), framebuffers(gl), targets(gl, framebuffers),
         recorder(gl, config.timing), paces(gl), eyes(gl, framebuffers), objectBoxes(gl), inputChecks(gl), blocks(gl) {}
 
   StateMode stateMode;
   bool checksInputs, warningsAreErrors;
   Tuning tuning; ///< nothing is left to choose once the objects are made
+  std::function<bool()> betweenDraws;
   gl::Functions gl;
   ContextWatch watch;
   Limits limits;
@@ -58,7 +59,7 @@ struct Effect::State {
   Status planFrame(const Frame& frame, const FrameTextures& textures, KeptEye* eye, PlannedFrame& planned,
                    Draws what = Draws::All);
   Status takeChecks(const Frame& given, const Frame& frame, const FrameTextures& textures, gl::StateGuard& guard);
-  void draw(const Frame& given, const PlannedFrame& planned, gl::StateGuard& guard);
+  bool draw(const Frame& given, const PlannedFrame& planned, gl::StateGuard& guard); ///< false: abandoned
   void keep(const Frame& frame, KeptEye* eye, PlannedFrame* planned);
   Status render(const Frame& frame);
   PrepareStatus prepare(const Frame& frame);

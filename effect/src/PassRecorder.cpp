@@ -64,6 +64,10 @@ void PassRecorder::nextBand() {
   ++passes_.back().statistics.bands;
 }
 
+void PassRecorder::resume() {
+  if (timing_ == PassTiming::Finish) start_ = std::chrono::steady_clock::now();
+}
+
 void PassRecorder::endBand() {
   if (timing_ == PassTiming::TimerQuery) stamp();
   if (timing_ != PassTiming::Finish) return;

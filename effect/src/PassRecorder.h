@@ -50,6 +50,8 @@ public:
 
   /// Between two bands of the pass that runs, each of which is timed by itself, too.
   void nextBand();
+  /// What went before it is no band's: waits, by PassTiming::Finish only, add nothing.
+  void resume();
 
   /// Of the frame; wait for its queries.
   std::uint64_t fixupPixels();

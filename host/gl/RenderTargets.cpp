@@ -2,6 +2,7 @@
 
 #include "scene/Error.h"
 
+#include <algorithm>
 #include <tyndall/tyndall.h>
 
 namespace host {
@@ -11,6 +12,13 @@ float RenderTargets::maxRadiance() const {
   return isFloat ? 1e30F : 6e4F; // half floats end at 65504
 }
 
+int mostSamples() {
+  GLint colour = 1, depth = 1;
+  gl().GetIntegerv(GL_MAX_COLOR_TEXTURE_SAMPLES, &colour);
+  gl().GetIntegerv(GL_MAX_DEPTH_TEXTURE_SAMPLES, &depth);
+  return std::min(colour, depth);
+}
+
 RenderTargets::RenderTargets(const RenderTargetOptions& options) : options_(options) {
   const int width = options.width;
   const int height = options.height;
@@ -18,6 +26,9 @@ RenderTargets::RenderTargets(const RenderTargetOptions& options) : options_(opti
     throw Error("render target " + std::to_string(width) + "x" + std::to_string(height) + ": each side must be 1 to " +
                 std::to_string(tyndall::kMaxImageSize) + " pixels");
   }
+  if (multisampled() && options.samples > mostSamples())
+    throw Error("msaa: " + std::to_string(options.samples) + " samples of a pixel: this context has at most " +
+                std::to_string(mostSamples()));
   colour_ = makeTexture2D(options.colourFormat, width, height);
   if (multisampled()) {
     multisampledColour_ = makeTexture2DMultisample(options.colourFormat, width, height, options.samples);

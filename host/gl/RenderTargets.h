@@ -13,6 +13,9 @@ struct RenderTargetOptions {
   int samples = 1; ///< per pixel; above 1 both textures are multisampled, and colour() is resolved
 };
 
+/// Samples of a pixel that the current context can have, in colour and depth.
+int mostSamples();
+
 class RenderTargets {
 public:
   /// Throws host::Error if the driver cannot give them.

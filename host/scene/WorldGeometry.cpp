@@ -22,32 +22,61 @@ void append(WorldGeometry& geometry, const Primitive& primitive, const glm::dmat
   }
 }
 
+/// Of a box whose corner i has the high x, y or z where bit 0, 1 or 2 of i is set; fronts outside.
+constexpr std::array<std::uint32_t, 36> kBoxTriangles = {0, 3, 1, 0, 2, 3, 4, 7, 6, 4, 5, 7, 0, 5, 4, 0, 1, 5,
+                                                         2, 7, 3, 2, 6, 7, 0, 6, 2, 0, 4, 6, 1, 7, 5, 1, 3, 7};
+
+glm::dvec3 cornerOf(const Bounds& box, int corner) {
+  return glm::mix(box.low, box.high, glm::bvec3((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0));
+}
+
 void appendBox(WorldGeometry& geometry, const Bounds& box, const glm::dmat4& worldFromBox) {
-  constexpr std::uint32_t kFaces[] = {0, 3, 1, 0, 2, 3, 4, 7, 6, 4, 5, 7, 0, 5, 4, 0, 1, 5,
-                                      2, 7, 3, 2, 6, 7, 0, 6, 2, 0, 4, 6, 1, 7, 5, 1, 3, 7}; // fronts outside
   const auto first = static_cast<std::uint32_t>(geometry.points.size());
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::bvec3 pick((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0);
-    geometry.points.emplace_back(worldFromBox * glm::dvec4(glm::mix(box.low, box.high, pick), 1));
-  }
-  for (const std::uint32_t corner : kFaces)
+  for (int corner = 0; corner < 8; ++corner)
+    geometry.points.emplace_back(worldFromBox * glm::dvec4(cornerOf(box, corner), 1));
+  for (const std::uint32_t corner : kBoxTriangles)
     geometry.triangles.push_back(first + corner);
+}
+
+constexpr double kHuge = std::numeric_limits<double>::infinity();
+
+bool isEmpty(const Bounds& bounds) { return bounds.low.x > bounds.high.x; }
+
+void widen(Bounds& bounds, const Primitive& primitive) {
+  for (const std::uint32_t index : primitive.indices) {
+    const glm::dvec3 position(primitive.vertices[index].position);
+    bounds.low = glm::min(bounds.low, position);
+    bounds.high = glm::max(bounds.high, position);
+  }
 }
 
 /// Around the ends of all lines of a mesh.
 std::optional<Bounds> strandBounds(const Mesh& mesh) {
-  constexpr double kHuge = std::numeric_limits<double>::infinity();
   Bounds bounds{glm::dvec3(kHuge), glm::dvec3(-kHuge)};
-  for (const Primitive& primitive : mesh.primitives) {
-    if (primitive.topology != Topology::Lines) continue;
-    for (const std::uint32_t index : primitive.indices) {
-      const glm::dvec3 position(primitive.vertices[index].position);
-      bounds.low = glm::min(bounds.low, position);
-      bounds.high = glm::max(bounds.high, position);
-    }
-  }
-  if (bounds.low.x > bounds.high.x) return std::nullopt;
+  for (const Primitive& primitive : mesh.primitives)
+    if (primitive.topology == Topology::Lines) widen(bounds, primitive);
+  if (isEmpty(bounds)) return std::nullopt;
   return bounds;
+}
+
+/// Lines become a diagonal, whose bounds are theirs.
+Primitive boxOf(const Primitive& primitive) {
+  Primitive box;
+  box.topology = primitive.topology;
+  box.material = primitive.material;
+  box.strand = primitive.strand;
+  Bounds bounds{glm::dvec3(kHuge), glm::dvec3(-kHuge)};
+  widen(bounds, primitive);
+  if (isEmpty(bounds) || primitive.topology == Topology::Points) return box;
+  for (int corner = 0; corner < 8; ++corner) {
+    box.vertices.emplace_back();
+    box.vertices.back().position = cornerOf(bounds, corner);
+  }
+  if (primitive.topology == Topology::Lines)
+    box.indices = {0, 7};
+  else
+    box.indices.assign(kBoxTriangles.begin(), kBoxTriangles.end());
+  return box;
 }
 
 /// The triangles of a node whose material `isWanted`.
@@ -110,6 +139,25 @@ WorldGeometry opaqueGeometry(const Scene& scene, const std::vector<glm::dmat4>& 
     return !material.unlit && !material.isGlass() && material.alphaMode == AlphaMode::Opaque;
   });
   return geometry;
+}
+
+Scene boxesOf(const Scene& scene) {
+  Scene boxes;
+  boxes.name = scene.name;
+  boxes.nodes = scene.nodes;
+  boxes.materials = scene.materials;
+  boxes.cameras = scene.cameras;
+  boxes.lights = scene.lights;
+  boxes.smoke = scene.smoke;
+  boxes.animation = scene.animation;
+  boxes.medium = scene.medium;
+  boxes.skyRadiance = scene.skyRadiance;
+  for (const Mesh& mesh : scene.meshes) {
+    boxes.meshes.push_back({mesh.name, {}});
+    for (const Primitive& primitive : mesh.primitives)
+      boxes.meshes.back().primitives.push_back(boxOf(primitive));
+  }
+  return boxes;
 }
 
 WorldGeometry visibleGeometry(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode) {

@@ -33,6 +33,10 @@ WorldGeometry visibleGeometry(const Scene& scene, const std::vector<glm::dmat4>&
 /// around each emitter's smoke at a time.
 WorldGeometry blockingGeometry(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode, double seconds);
 
+/// The scene with a box for each primitive, of triangles or lines, and without textures: bounds, cameras and shadow
+/// views that are fitted to it hold the scene, need not be tight, and take next to no time.
+Scene boxesOf(const Scene& scene);
+
 /// Nearest and farthest distance along -z.
 struct DepthRange {
   double nearest = 0;

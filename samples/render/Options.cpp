@@ -187,6 +187,7 @@ void addState(CLI::App& app, Options& options, Given& given) {
   addSettings(
       app, settings::tuningTable(), [](settings::State& s) -> tyndall::Tuning& { return s.tuning; }, given.overrides);
   addSettings(app, settings::mapsTable(), whole, given.overrides);
+  addSettings(app, settings::volumesTable(), whole, given.overrides);
   addSettings(
       app, settings::reuseTable(), [](settings::State& s) -> tyndall::Reuse& { return s.reuse; }, given.overrides);
 }

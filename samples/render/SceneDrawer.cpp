@@ -8,6 +8,7 @@
 #include <scene/ShadowViews.h>
 #include <scene/Smoke.h>
 #include <scene/Strands.h>
+#include <scene/WorldGeometry.h>
 
 namespace render {
 
@@ -82,7 +83,7 @@ void addOnce(host::Notes& notes, const host::Notes& more) {
 
 SceneDrawer::SceneDrawer(host::Scene scene, const host::Context& context, const settings::State& state,
                          host::Notes& notes)
-    : context_(context), scene_(std::move(scene)), renderer_(std::make_unique<host::SceneRenderer>(scene_)),
+    : context_(context), scene_(std::move(scene)), boxes_(host::boxesOf(scene_)), renderer_(std::make_unique<host::SceneRenderer>(scene_)),
       meshBounds_(host::meshBounds(scene_)) {
   makeVolumeShadows(state, notes);
 }
@@ -113,16 +114,16 @@ tyndall::Medium SceneDrawer::mediumOf(const settings::State& state, host::Notes&
   return state.medium ? *state.medium : host::mediumOf(scene_, host::boundsOf(scene_, host::poseAt(scene_, 0)), notes);
 }
 
-tyndall::Camera SceneDrawer::cameraOf(const settings::State& state, const std::vector<glm::dmat4>& worldFromNode,
-                                      host::Notes& notes) const {
+tyndall::Camera SceneDrawer::cameraOf(const host::Scene& scene, const settings::State& state,
+                                      const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) {
   const host::CameraOptions cameraOptions{state.reversedDepth, clipDepthOf(state)};
   const double aspect = static_cast<double>(state.width) / state.height;
   if (state.lookAt)
-    return host::makeLookAt(scene_, worldFromNode, state.lookAt->eye, state.lookAt->target, state.lookAt->fovDegrees,
+    return host::makeLookAt(scene, worldFromNode, state.lookAt->eye, state.lookAt->target, state.lookAt->fovDegrees,
                             aspect, cameraOptions);
-  if (!state.camera && host::cameraNodes(scene_).empty())
-    return host::makeDefaultCamera(scene_, worldFromNode, aspect, cameraOptions, notes);
-  return host::makeCamera(scene_, worldFromNode, state.camera.value_or(0), aspect, cameraOptions);
+  if (!state.camera && host::cameraNodes(scene).empty())
+    return host::makeDefaultCamera(scene, worldFromNode, aspect, cameraOptions, notes);
+  return host::makeCamera(scene, worldFromNode, state.camera.value_or(0), aspect, cameraOptions);
 }
 
 std::vector<tyndall::Light> SceneDrawer::lightsOf(const settings::State& state, const Moment& moment,
@@ -134,6 +135,24 @@ std::vector<tyndall::Light> SceneDrawer::lightsOf(const settings::State& state, 
   return settings::lightsOf(*state.lights, host::makeLights(scene_, worldFromNode, ofNoConcern));
 }
 
+// Which walls are around a scene is not asked again while only the camera moves, or what is seen is coarse.
+glm::vec3 SceneDrawer::skyOf(const Moment& moment, const std::vector<glm::dmat4>& worldFromNode,
+                             const std::vector<tyndall::Light>& lights, host::Notes& notes) {
+  std::vector<double> key = {1};
+  for (const tyndall::Light& light : lights)
+    if (light.kind == tyndall::LightKind::Directional) append(key, light.colour);
+  const bool isKnown = moment.isCoarse && skyKey_.size() >= key.size() && std::equal(key.begin(), key.end(), skyKey_.begin());
+  for (const glm::dmat4& matrix : worldFromNode)
+    append(key, matrix);
+  if (!isKnown && key != skyKey_) {
+    skyNotes_.clear();
+    sky_ = host::skyOf(scene_, worldFromNode, lights, skyNotes_);
+    skyKey_ = std::move(key);
+  }
+  addOnce(notes, skyNotes_);
+  return sky_;
+}
+
 void SceneDrawer::fitViews(const settings::State& state, const Moment& moment,
                            const std::vector<glm::dmat4>& worldFromNode, tyndall::Frame& frame,
                            host::Notes& notes) const {
@@ -142,7 +161,7 @@ void SceneDrawer::fitViews(const settings::State& state, const Moment& moment,
   const host::ShadowOptions shadowOptions{state.reversedDepth, clipDepthOf(state), state.cascades, cubeFaces,
                                           moment.seconds};
   for (tyndall::Light& light : frame.lights) {
-    addOnce(notes, host::fitShadowViews(light, scene_, worldFromNode, frame.camera, shadowOptions));
+    addOnce(notes, host::fitShadowViews(light, fittedTo(moment), worldFromNode, frame.camera, shadowOptions));
     const bool isCascaded = light.shadow.views.size() > 1 && light.kind == tyndall::LightKind::Directional;
     if (isCascaded && areScenes) light.cascadeFade = state.cascadeFade;
   }
@@ -152,12 +171,26 @@ std::vector<double> SceneDrawer::mapsKeyOf(const settings::State& state, const M
                                            const std::vector<glm::dmat4>& worldFromNode,
                                            const std::vector<tyndall::Light>& lights) const {
   std::vector<double> key = {static_cast<double>(state.shadowSize), static_cast<double>(lights.size())};
-  if (hasVolumes()) key.push_back(moment.seconds);
+  if (hasVolumes())
+    append(key, std::initializer_list<double>{moment.seconds, state.smokeDensity, state.strandWidth, state.strandOpacity});
   for (const glm::dmat4& matrix : worldFromNode)
     append(key, matrix);
   for (const tyndall::Light& light : lights)
     appendMapped(key, light);
   return key;
+}
+
+void SceneDrawer::setVolumes(const settings::State& state, const Moment& moment,
+                             const std::vector<glm::dmat4>& worldFromNode) {
+  std::vector<host::SmokeParticle> smoke = host::smokeAt(scene_, moment.seconds);
+  for (host::SmokeParticle& particle : smoke)
+    particle.density *= state.smokeDensity;
+  host::Strands strands = host::strandsAt(scene_, worldFromNode);
+  for (host::StrandPoint& point : strands.points) {
+    point.strand.width *= state.strandWidth;
+    point.strand.opacity *= state.strandOpacity;
+  }
+  renderer_->setVolumes(std::move(smoke), std::move(strands));
 }
 
 void SceneDrawer::drawMaps(const settings::State& state, const Moment& moment,
@@ -180,7 +213,7 @@ void SceneDrawer::drawMaps(const settings::State& state, const Moment& moment,
     shadowMaps_.back().attachTo(light);
   }
   if (hasVolumes()) {
-    renderer_->setVolumes(host::smokeAt(scene_, moment.seconds), host::strandsAt(scene_, worldFromNode));
+    setVolumes(state, moment, worldFromNode);
     if (volumeShadows_) volumeShadows_->update(*renderer_, frame.lights);
   }
   mappedLights_ = frame.lights;
@@ -230,9 +263,9 @@ void SceneDrawer::draw(const settings::State& state, const Moment& moment, host:
                        tyndall::Frame& frame, host::Notes& notes) {
   makeVolumeShadows(state, notes);
   const std::vector<glm::dmat4> worldFromNode = host::poseAt(scene_, moment.seconds);
-  frame.camera = cameraOf(state, worldFromNode, notes);
+  frame.camera = cameraOf(fittedTo(moment), state, worldFromNode, notes);
   frame.lights = lightsOf(state, moment, worldFromNode, notes);
-  const glm::vec3 sky = host::skyOf(scene_, worldFromNode, frame.lights, notes);
+  const glm::vec3 sky = skyOf(moment, worldFromNode, frame.lights, notes);
   fitViews(state, moment, worldFromNode, frame, notes);
   drawMaps(state, moment, worldFromNode, frame);
   jitterCamera(state, moment.jitterPlace, frame.camera);

@@ -26,6 +26,7 @@ void addOnce(host::Notes& notes, const host::Notes& more);
 struct Moment {
   double seconds = 0;
   int jitterPlace = 0;               ///< for State::halton: counts frames
+  bool isCoarse = false;             ///< planes and shadow views hold boxes around the meshes: not tight, and fast
   std::optional<tyndall::Light> sun; ///< in place of all lights
 };
 
@@ -46,28 +47,34 @@ public:
   /// The state's medium, or the scene's.
   tyndall::Medium mediumOf(const settings::State& state, host::Notes& notes) const;
 
-  tyndall::Camera cameraOf(const settings::State& state, const std::vector<glm::dmat4>& worldFromNode,
-                           host::Notes& notes) const;
+  /// Of the scene, or of boxes().
+  static tyndall::Camera cameraOf(const host::Scene& scene, const settings::State& state,
+                                  const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes);
 
   const host::Scene& scene() const { return scene_; }
+  const host::Scene& boxes() const { return boxes_; } ///< host::boxesOf(scene())
+  bool hasVolumes() const;                            ///< smoke or strands
   const std::vector<glm::dmat4>& pose() const { return pose_; } ///< of the last draw(); empty before the first
   const VolumeShadows* volumeShadows() const { return volumeShadows_.get(); } ///< null: there are none
 
 private:
   std::vector<tyndall::Light> lightsOf(const settings::State& state, const Moment& moment,
                                        const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) const;
+  glm::vec3 skyOf(const Moment& moment, const std::vector<glm::dmat4>& worldFromNode,
+                  const std::vector<tyndall::Light>& lights, host::Notes& notes);
+  const host::Scene& fittedTo(const Moment& moment) const { return moment.isCoarse ? boxes_ : scene_; }
   void fitViews(const settings::State& state, const Moment& moment, const std::vector<glm::dmat4>& worldFromNode,
                 tyndall::Frame& frame, host::Notes& notes) const;
   std::vector<double> mapsKeyOf(const settings::State& state, const Moment& moment,
                                 const std::vector<glm::dmat4>& worldFromNode,
                                 const std::vector<tyndall::Light>& lights) const;
+  void setVolumes(const settings::State& state, const Moment& moment, const std::vector<glm::dmat4>& worldFromNode);
   void drawMaps(const settings::State& state, const Moment& moment, const std::vector<glm::dmat4>& worldFromNode,
                 tyndall::Frame& frame);
   void drawSurfaces(const std::vector<glm::dmat4>& worldFromNode, const glm::vec3& sky, host::RenderTargets& surfaces,
                     const tyndall::Frame& frame);
   void layOutMaps(const settings::State& state, tyndall::Frame& frame);
   void makeVolumeShadows(const settings::State& state, host::Notes& notes);
-  bool hasVolumes() const;
   std::vector<tyndall::MovingObject> movedObjects(const std::vector<glm::dmat4>& worldFromNode, double seconds) const;
 
   /// Of smoke's shadows, as State has them.
@@ -77,13 +84,15 @@ private:
   };
 
   const host::Context& context_;
-  host::Scene scene_;
+  host::Scene scene_, boxes_;
   std::unique_ptr<host::SceneRenderer> renderer_;
   std::vector<host::ShadowMapTextures> shadowMaps_;
   std::unique_ptr<host::ShadowLayout> shadowLayout_; ///< none: the maps are the effect's as they are
   host::MapForm mapForm_;                            ///< of shadowLayout_
   std::vector<host::LaidOutMaps> laidOutMaps_;
-  std::vector<double> mapsKey_, surfacesKey_;    ///< all that they were drawn from; empty: nothing was
+  std::vector<double> skyKey_, mapsKey_, surfacesKey_; ///< all that they were made of; empty: nothing was
+  glm::vec3 sky_{0};
+  host::Notes skyNotes_;
   std::vector<tyndall::Light> mappedLights_;     ///< with the maps as they were drawn
   std::unique_ptr<VolumeShadows> volumeShadows_; ///< none without smoke and strands, or where they cast no shadow
   Avsm avsm_;                                    ///< that they were made with

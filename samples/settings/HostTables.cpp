@@ -104,16 +104,44 @@ const Table<State>& mapsTable() {
                 .withOption("--cascade-fade"),
             renamed(part("mapForm", &State::mapForm, formRows()[0]), "layout"),
             renamed(part("mapForm", &State::mapForm, formRows()[1]), "encoding"),
-            switchOf("avsm", &State::avsm, "smoke and strands cast shadows")
-                .withOption("--no-avsm", OptionForm::FlagOff, "smoke and strands cast no shadows"),
-            number("avsmSize", &State::avsmSize, from(1, 4096), "texels per side of a light's map of smoke and strands")
-                .withOption("--avsm-size")
-                .withSlider(32, 1024, true),
-            number("avsmNodes", &State::avsmNodes, only({4, 8, 12, 16}), "nodes of its curves")
-                .withOption("--avsm-nodes"),
             switchOf("reversedDepth", &State::reversedDepth, "camera and shadow depth fall from 1 to 0")
                 .withOption("--reversed-depth", OptionForm::FlagOn),
         }};
+    return made;
+  }();
+  return table;
+}
+
+const Table<State>& volumesTable() {
+  constexpr double kMostTimes = 100;
+  static const Table<State> table{
+      "State",
+      {
+          switchOf("avsm", &State::avsm, "smoke and strands cast shadows")
+              .withOption("--no-avsm", OptionForm::FlagOff, "smoke and strands cast no shadows"),
+          number("avsmSize", &State::avsmSize, from(1, 4096), "texels per side of a light's map of smoke and strands")
+              .withOption("--avsm-size")
+              .withSlider(32, 1024, true),
+          number("avsmNodes", &State::avsmNodes, only({4, 8, 12, 16}), "nodes of its curves")
+              .withOption("--avsm-nodes"),
+          number("smokeDensity", &State::smokeDensity, from(0, kMostTimes), "extinction of smoke, times the scene's")
+              .withOption("--smoke-density")
+              .withSlider(0, 4),
+          number("strandWidth", &State::strandWidth, above(0, kMostTimes), "width of strands, times the scene's")
+              .withOption("--strand-width")
+              .withSlider(0.1, 10, true),
+          number("strandOpacity", &State::strandOpacity, from(0, 1), "opacity of strands, times the scene's")
+              .withOption("--strand-opacity"),
+      }};
+  return table;
+}
+
+const Table<PathPoint>& pathTable() {
+  static const Table<PathPoint> table = [] {
+    Table<PathPoint> made{"PathPoint",
+                          {number("seconds", &PathPoint::seconds, from(0, kMostSeconds), "from the path's begin").in("s")}};
+    for (const Setting<LookAt>& row : lookAtTable().rows)
+      made.rows.push_back(renamed(part("view", &PathPoint::view, row), row.field.c_str()));
     return made;
   }();
   return table;

@@ -137,6 +137,7 @@ const std::vector<Left>& leftToEngines() {
       {"Config.tuning", "tuningTable()"},
       {"Config.checkInputs", "the tool's: --check-inputs"},
       {"Config.warningsAreErrors", "the tool's: --strict"},
+      {"Config.betweenDraws", "the tool's"},
   };
   return left;
 }

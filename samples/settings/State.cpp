@@ -9,6 +9,12 @@ std::string contradictionIn(const State& state) {
   using tyndall::DebugView;
   using tyndall::Technique;
   if (state.lookAt && state.lookAt->eye == state.lookAt->target) return "camera.target: must differ from camera.eye";
+  for (std::size_t i = 0; i < state.path.size(); ++i) {
+    const LookAt& view = state.path[i].view;
+    if (view.eye == view.target) return fmt::format("path[{}].target: must differ from its eye", i);
+    if (i > 0 && state.path[i].seconds < state.path[i - 1].seconds)
+      return fmt::format("path[{}].seconds: {} must not be before the point before it", i, state.path[i].seconds);
+  }
   if (std::max(renderedWidth(state), renderedHeight(state)) > tyndall::kMaxImageSize)
     return fmt::format("picture.supersample: {} makes more than {} pixels a side", state.supersample,
                        tyndall::kMaxImageSize);

@@ -18,6 +18,18 @@ struct LookAt {
   double fovDegrees = 50; ///< vertical
 };
 
+/// Where a camera was at a time of its path.
+struct PathPoint {
+  double seconds = 0; ///< from its begin
+  LookAt view;
+};
+
+/// A second way of drawing the same, beside the state's.
+struct Compared {
+  tyndall::Profile profile = tyndall::Profile::Performance; ///< that the settings began as
+  tyndall::Settings settings = tyndall::settingsOf(tyndall::Profile::Performance);
+};
+
 /// A light in place of the scene's.
 struct StateLight {
   bool on = true;
@@ -51,8 +63,16 @@ struct State {
   bool avsm = true;         ///< whether smoke and strands cast shadows
   int avsmSize = 256;       ///< texels per side
   int avsmNodes = 8;
+  double smokeDensity = 1;  ///< times what the scene says
+  double strandWidth = 1;   ///< the same
+  double strandOpacity = 1; ///< the same
   bool reversedDepth = false; ///< of camera and shadow maps, with clip depth from 0 to 1
+  // What the viewer keeps with them, and tyndall-render leaves alone.
+  std::optional<Compared> compared;
+  std::vector<PathPoint> path; ///< that a camera took, in the order of time
 };
+
+constexpr std::size_t kMostPathPoints = 4096;
 
 /// Pixels per side that are rendered.
 inline int renderedWidth(const State& state) { return state.width * state.supersample; }

@@ -79,16 +79,47 @@ void readCamera(State& state, const Json& json, const std::string& where) {
   state.camera = number.get<int>();
 }
 
-void readProfile(State& state, const Json& json, const std::string& where) {
+/// Of a State or Compared, whose settings begin as its.
+template <typename Owner>
+void readProfile(Owner& owner, const Json& json, const std::string& where) {
   std::string names;
   for (const Choice& choice : kProfiles) {
     names += (names.empty() ? "" : ", ") + std::string(choice.name);
     if (json != choice.name) continue;
-    state.profile = static_cast<tyndall::Profile>(choice.value);
-    state.settings = tyndall::settingsOf(state.profile);
+    owner.profile = static_cast<tyndall::Profile>(choice.value);
+    owner.settings = tyndall::settingsOf(owner.profile);
     return;
   }
   refuse(where, shown(json) + " must be one of " + names);
+}
+
+Json jsonOf(const Compared& compared) {
+  return {{"profile", nameOf(compared.profile)}, {"settings", jsonOf(settingsTable(), compared.settings)}};
+}
+
+Compared comparedOf(const Json& json, const std::string& where) {
+  requireObject(json, where);
+  for (const auto& member : json.items())
+    if (member.key() != "profile" && member.key() != "settings") refuse(where, "has no field " + shown(member.key()));
+  Compared compared;
+  if (json.contains("profile")) readProfile(compared, json["profile"], where + ".profile");
+  if (json.contains("settings")) readInto(settingsTable(), compared.settings, json["settings"], where + ".settings");
+  return compared;
+}
+
+Json jsonOf(const std::vector<PathPoint>& path) {
+  Json json = Json::array();
+  for (const PathPoint& point : path)
+    json.push_back(jsonOf(pathTable(), point));
+  return json;
+}
+
+std::vector<PathPoint> pathOf(const Json& json, const std::string& where) {
+  requireList(json, kMostPathPoints, where);
+  std::vector<PathPoint> path(json.size());
+  for (std::size_t i = 0; i < path.size(); ++i)
+    readInto(pathTable(), path[i], json[i], fmt::format("{}[{}]", where, i));
+  return path;
 }
 
 void requireVersion(const Json& json, const std::string& where) {
@@ -99,7 +130,7 @@ void requireVersion(const Json& json, const std::string& where) {
 }
 
 void requireKnown(const Json& json, const std::string& where) {
-  std::vector<std::string> known = {"version", "scene", "camera", "profile", "medium", "lights"};
+  std::vector<std::string> known = {"version", "scene", "camera", "profile", "medium", "lights", "compared", "path"};
   State state;
   visitTables(state, [&](const char* name, const auto&, const auto&) { known.emplace_back(name); });
   for (const auto& member : json.items())
@@ -130,6 +161,9 @@ State parseState(const std::string& text, const std::string& where, const std::f
   });
   if (json.contains("medium") && !json["medium"].is_null()) state.medium = mediumOf(json["medium"], prefix + "medium");
   if (json.contains("lights") && !json["lights"].is_null()) state.lights = lightsOf(json["lights"], prefix + "lights");
+  if (json.contains("compared") && !json["compared"].is_null())
+    state.compared = comparedOf(json["compared"], prefix + "compared");
+  if (json.contains("path")) state.path = pathOf(json["path"], prefix + "path");
   const std::string contradiction = contradictionIn(state);
   if (!contradiction.empty()) throw host::Error(prefix + contradiction);
   return state;
@@ -146,11 +180,13 @@ std::string textOf(const State& state, const std::filesystem::path& folder) {
   visitTables(state, [&](const char* name, const auto& part, const auto& table) { json[name] = jsonOf(table, part); });
   json["medium"] = state.medium ? jsonOf(*state.medium) : Json(nullptr);
   json["lights"] = state.lights ? jsonOf(*state.lights) : Json(nullptr);
+  json["compared"] = state.compared ? jsonOf(*state.compared) : Json(nullptr);
+  json["path"] = jsonOf(state.path);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 State loadState(const std::filesystem::path& file) {
-  constexpr std::uint64_t kMaxBytes = 1 << 20;
+  constexpr std::uint64_t kMaxBytes = 4 << 20;
   const std::vector<std::uint8_t> bytes = host::readFile(file, kMaxBytes);
   return parseState(std::string(bytes.begin(), bytes.end()), host::printable(file.string()), file.parent_path());
 }

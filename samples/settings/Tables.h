@@ -19,6 +19,8 @@ const Table<StateLight>& lightTable(); ///< all of a tyndall::Light that is a pe
 const Table<LookAt>& lookAtTable();
 const Table<State>& pictureTable();
 const Table<State>& mapsTable();
+const Table<State>& volumesTable(); ///< smoke and strands
+const Table<PathPoint>& pathTable();
 
 /// As command lines have them.
 std::string nameOf(tyndall::Profile profile);
@@ -29,6 +31,7 @@ template <typename AnyState, typename Visit>
 void visitTables(AnyState& state, const Visit& visit) {
   visit("picture", state, pictureTable());
   visit("maps", state, mapsTable());
+  visit("volumes", state, volumesTable());
   visit("settings", state.settings, settingsTable());
   visit("reuse", state.reuse, reuseTable());
   visit("tuning", state.tuning, tuningTable());

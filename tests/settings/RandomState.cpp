@@ -34,6 +34,21 @@ void randomise(Owner& owner, const settings::Table<Owner>& table, std::mt19937& 
     if (below(3, random) > 0) row.set(owner, randomValue(row, random));
 }
 
+void randomiseKept(settings::State& state, std::mt19937& random) {
+  if (below(2, random) == 0) {
+    state.compared.emplace();
+    state.compared->profile = static_cast<tyndall::Profile>(below(4, random));
+    state.compared->settings = tyndall::settingsOf(state.compared->profile);
+    randomise(state.compared->settings, settings::settingsTable(), random);
+  }
+  state.path.resize(static_cast<std::size_t>(below(4, random)));
+  double seconds = 0;
+  for (settings::PathPoint& point : state.path) {
+    randomise(point, settings::pathTable(), random);
+    point.seconds = seconds += std::uniform_real_distribution<double>(0, 1)(random);
+  }
+}
+
 void randomiseScene(settings::State& state, std::mt19937& random) {
   if (below(2, random) == 0) {
     state.lookAt.emplace();
@@ -86,6 +101,17 @@ void compareScenes(std::vector<std::string>& found, const settings::State& a, co
             b.medium->constituents[i]);
 }
 
+void compareKept(std::vector<std::string>& found, const settings::State& a, const settings::State& b) {
+  if (a.compared.has_value() != b.compared.has_value()) found.emplace_back("compared");
+  if (a.compared && b.compared) {
+    if (a.compared->profile != b.compared->profile) found.emplace_back("compared.profile");
+    compare(found, "compared.settings", settings::settingsTable(), a.compared->settings, b.compared->settings);
+  }
+  if (a.path.size() != b.path.size()) return found.emplace_back("path"), void();
+  for (std::size_t i = 0; i < a.path.size(); ++i)
+    compare(found, fmt::format("path[{}]", i), settings::pathTable(), a.path[i], b.path[i]);
+}
+
 } // namespace
 
 Value randomValue(const Row& row, std::mt19937& random) {
@@ -109,6 +135,7 @@ settings::State randomState(unsigned seed) {
     state.settings = tyndall::settingsOf(state.profile);
     settings::visitTables(state, [&](const char*, auto& part, const auto& table) { randomise(part, table, random); });
     randomiseScene(state, random);
+    randomiseKept(state, random);
     if (contradictionIn(state).empty()) return state;
   }
 }
@@ -119,9 +146,11 @@ std::vector<std::string> differences(const settings::State& a, const settings::S
   if (a.profile != b.profile) found.emplace_back("profile");
   compare(found, "picture", settings::pictureTable(), a, b);
   compare(found, "maps", settings::mapsTable(), a, b);
+  compare(found, "volumes", settings::volumesTable(), a, b);
   compare(found, "settings", settings::settingsTable(), a.settings, b.settings);
   compare(found, "reuse", settings::reuseTable(), a.reuse, b.reuse);
   compare(found, "tuning", settings::tuningTable(), a.tuning, b.tuning);
+  compareKept(found, a, b);
   return found;
 }
 

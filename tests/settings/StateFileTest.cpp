@@ -134,6 +134,14 @@ TEST_CASE("a state that breaks a rule is refused with field, value and rule") {
        "a.json: lights[0].boundary: has no field \"plane\""},
       {R"({"version": 1, "lights": [{"innerConeAngle": 1, "outerConeAngle": 0.5}]})",
        "a.json: lights[0].innerConeAngle: 1 must not exceed outerConeAngle, 0.5"},
+      {R"({"version": 1, "compared": {"profile": "fast"}})", "a.json: compared.profile: \"fast\" must be one of"},
+      {R"({"version": 1, "compared": {"settings": {"slices": 0}}})", "a.json: compared.settings.slices: 0 must be"},
+      {R"({"version": 1, "compared": {"wipe": 1}})", "a.json: compared: has no field \"wipe\""},
+      {R"({"version": 1, "path": [{"eye": [0, 0, 0], "target": [0, 0, 0]}]})",
+       "a.json: path[0].target: must differ from its eye"},
+      {R"({"version": 1, "path": [{"seconds": 2}, {"seconds": 1}]})",
+       "a.json: path[1].seconds: 1 must not be before the point before it"},
+      {R"({"version": 1, "path": [{"seconds": -1}]})", "a.json: path[0].seconds: -1 must be a number from 0"},
   };
   for (const auto& [text, message] : cases) {
     CAPTURE(text);

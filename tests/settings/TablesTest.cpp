@@ -150,6 +150,8 @@ TEST_CASE("every setting has a name of its own, a line of help, and a default th
   checkTexts(settings::lookAtTable(), options);
   checkTexts(settings::pictureTable(), options);
   checkTexts(settings::mapsTable(), options);
+  checkTexts(settings::volumesTable(), options);
+  checkTexts(settings::pathTable(), options);
 }
 
 TEST_CASE("every setting of effect and tuning has an option") {

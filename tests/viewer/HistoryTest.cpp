@@ -92,7 +92,7 @@ TEST_CASE("quantiles of frame times are of the last ones") {
   viewer::FrameTimes times;
   CHECK(times.quantile(0.5) == 0);
   for (int i = 0; i < 1000; ++i)
-    times.add(i < 500 ? 1000 : i % 100);
+    times.add(i < 500 ? 1000 : i % 100, false);
   CHECK(times.times().size() == 240);
   CHECK(times.quantile(1) == 99);
   CHECK(times.quantile(0) == 0);

@@ -72,33 +72,121 @@ TEST_CASE("a scene that is deleted while it is shown stays, and states of it are
   std::filesystem::remove(file);
 }
 
-TEST_CASE("exact is drawn in steps") {
+TEST_CASE("the window lives while a picture takes long, and what it changes ends that picture") {
   tests::ViewerRig rig(640, 360);
   rig.load("projector");
   rig.settle();
   settings::State state = rig.viewer.state();
   state.settings.technique = tyndall::Technique::Exact;
-  rig.viewer.quality.setTarget(20);
+  int turns = 0;
+  rig.viewer.whileDrawing = [&] {
+    CHECK(rig.viewer.isDrawing());
+    ++turns;
+  };
   rig.viewer.edit("technique", state);
-  CHECK(rig.settle() > 5);
+  rig.settle();
+  CHECK(rig.viewer.isSettled());
   CHECK(rig.viewer.first().statistics().marchedSamples == 640 * 360);
+  CHECK(turns > 3);
+  const std::vector<float> exact = host::readColour(rig.viewer.first().inscatter(), 640, 360);
+
+  bool hasTurned = false;
+  int drawn = 0;
+  rig.viewer.whileDrawing = [&] {
+    if (!hasTurned) rig.viewer.setView(viewer::orbited(rig.viewer.view(), 0.1, 0));
+    hasTurned = true;
+  };
+  rig.viewer.edit("technique", state);
+  rig.runUntil([&] { return hasTurned; });
+  CHECK_FALSE(rig.viewer.isSettled());
+  rig.step();
+  CHECK(rig.last == Activity::Drew); // the turned view, coarse
+  drawn = rig.settle();
+  CHECK(drawn >= 1);
+  rig.viewer.whileDrawing = {};
+  rig.viewer.setView(viewer::orbited(rig.viewer.view(), -0.1, 0));
+  rig.settle();
+  const std::vector<float> again = host::readColour(rig.viewer.first().inscatter(), 640, 360);
+  double most = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i)
+    most = std::max<double>(most, std::abs(exact[i] - again[i]));
+  CHECK(most < 1e-3); // but for the rounding of the turns
 }
 
 TEST_CASE("two ways are drawn beside each other, each with its error") {
   tests::ViewerRig rig;
   rig.load("projector");
-  tyndall::Settings fast = tyndall::settingsOf(tyndall::Profile::Performance);
-  rig.viewer.compareWith(fast);
+  settings::State state = rig.viewer.state();
+  state.compared.emplace();
+  rig.viewer.edit("compared", state);
   rig.viewer.measuresErrors = true;
   rig.viewer.setWipe(0.5F);
   rig.settle();
   REQUIRE(rig.viewer.second());
   REQUIRE(rig.viewer.meter().errors().size() == 2);
   CHECK(rig.viewer.meter().errors()[0].rRmse < rig.viewer.meter().errors()[1].rRmse);
-  rig.viewer.compareWith(std::nullopt);
+  rig.viewer.undo();
   rig.settle();
   CHECK_FALSE(rig.viewer.second());
   CHECK(rig.viewer.meter().errors().size() == 1);
+}
+
+TEST_CASE("a camera's path is recorded, kept in the state, and taken again") {
+  tests::ViewerRig rig(32, 18);
+  rig.load("projector");
+  rig.settle();
+  const viewer::LookAt start = rig.viewer.view();
+  rig.viewer.record(true);
+  std::vector<viewer::LookAt> views;
+  for (int i = 0; i < 50; ++i) {
+    rig.viewer.setView(viewer::orbited(rig.viewer.view(), 0.02, 0));
+    views.push_back(rig.viewer.view());
+    rig.step();
+  }
+  rig.viewer.record(false);
+  const std::vector<settings::PathPoint>& path = rig.viewer.state().path;
+  REQUIRE(path.size() > 10);
+  CHECK(path.back().seconds == Approx(1).margin(0.06));
+  CHECK(path.front().view.eye == start.eye);
+  CHECK(rig.viewer.history().nameOfUndo() == "record path");
+
+  rig.viewer.setView(start);
+  rig.viewer.playback.loops = false;
+  rig.viewer.playPath(true);
+  double apart = 0;
+  for (int i = 0; i < 45; ++i) {
+    rig.step();
+    CHECK(rig.viewer.isOnPath());
+    apart = std::max(apart, glm::length(rig.viewer.view().eye - views[static_cast<std::size_t>(i)].eye));
+  }
+  CHECK(apart < 0.05 * glm::length(start.eye - start.target));
+  rig.runUntil([&] { return !rig.viewer.isOnPath(); });
+  CHECK(glm::length(rig.viewer.view().eye - path.back().view.eye) < 1e-9);
+  rig.viewer.playPath(true);
+  rig.step();
+  rig.viewer.setView(start); // whoever moves the camera has it
+  CHECK_FALSE(rig.viewer.isOnPath());
+}
+
+TEST_CASE("smoke's density and the width of strands are a person's to set") {
+  for (const char* name : {"censer", "hair"}) {
+    tests::ViewerRig rig;
+    rig.load(name);
+    CHECK(rig.viewer.hasVolumes());
+    const auto picture = [&] {
+      rig.settle();
+      CHECK(rig.error().empty());
+      return host::readColour(rig.viewer.first().composite(), 96, 54);
+    };
+    const std::vector<float> before = picture();
+    settings::State state = rig.viewer.state();
+    state.smokeDensity = 3;
+    state.strandWidth = 4;
+    rig.viewer.edit("volumes", state);
+    CHECK(picture() != before);
+    rig.viewer.undo();
+    CHECK(picture() == before);
+  }
 }
 
 TEST_CASE("an animation plays and can be stopped") {
@@ -220,9 +308,17 @@ TEST_CASE("samples of a pixel may be any number that is offered") {
   tests::ViewerRig rig;
   rig.load("projector");
   for (const int samples : {2, 4, 8, 1}) {
+    CAPTURE(samples);
     settings::State state = rig.viewer.state();
     state.msaa = samples;
     rig.viewer.edit("msaa", state);
+    if (samples > host::mostSamples()) {
+      const GLuint before = rig.viewer.picture();
+      rig.runUntil([&] { return rig.last == Activity::Idle; });
+      CHECK(rig.error().find("msaa") != std::string::npos);
+      CHECK(rig.viewer.picture() == before);
+      continue;
+    }
     rig.settle();
     CHECK(rig.error().empty());
     CHECK(rig.viewer.surfaces().multisampled() == (samples > 1));

@@ -75,6 +75,7 @@ enum class StatusCode {
   InvalidConfig, ///< a field of Config breaks its rule
   InvalidFrame,  ///< a field of Frame breaks its rule
   ContextLost,   ///< the GPU was reset: what GL held is gone; a new context is needed, and all objects anew
+  Abandoned,     ///< Config::betweenDraws did not want the rest of the frame
 };
 
 /// The outcome of a call. The message is one line that names field, value and rule; for ShaderError the log follows.
@@ -523,6 +524,11 @@ struct Config {
   /// while one integrates.
   bool checkInputs = false;
   bool warningsAreErrors = false; ///< InvalidFrame, and nothing is drawn, for what would be a warning: the first
+  /// For tools that must answer while a frame takes long: called by render() between draws, and between the bands of one
+  /// (Tuning::bandMilliseconds). It may wait for GL, and make another context current for a while; of this one it leaves
+  /// all state as it is. It calls nothing of the effect, and does not throw. False: no more is drawn, and render()
+  /// returns Abandoned; what was drawn into colour and outputs stays. Timer queries of passes count its time.
+  std::function<bool()> betweenDraws = nullptr;
 };
 
 /// How far Effect::prepare() is.
@@ -562,8 +568,8 @@ public:
   /// render()'s for a frame that breaks a rule, ShaderError for a program that does not build.
   PrepareStatus prepare(const Frame& frame);
 
-  /// Adds the shafts to the frame. Unless the status is Ok nothing was drawn, and colour and outputs are untouched,
-  /// whatever failed. Does not wait for the GPU. Frames like those before make no GL object. GL state on return is as
+  /// Adds the shafts to the frame. Unless the status is Ok, or Abandoned, nothing was drawn, and colour and outputs are
+  /// untouched, whatever failed. Does not wait for the GPU. Frames like those before make no GL object. GL state on return is as
   /// Config::state says. GL errors of the engine's that it has not asked for are pending still.
   Status render(const Frame& frame);
 

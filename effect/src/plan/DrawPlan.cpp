@@ -49,8 +49,13 @@ void forEachDraw(const FramePlan& plan, Function&& function) {
 class Drawer {
 public:
   Drawer(const gl::Functions& gl, const DrawObjects& objects, PassRecorder& recorder, BandPaces& paces,
-         double bandMilliseconds)
-      : gl_(gl), objects_(objects), recorder_(recorder), paces_(paces), most_(bandMilliseconds) {}
+         double bandMilliseconds, const std::function<bool()>& betweenDraws)
+      : gl_(gl), objects_(objects), recorder_(recorder), paces_(paces), most_(bandMilliseconds),
+        betweenDraws_(betweenDraws) {}
+
+  /// False once betweenDraws did not want the rest; asked before each draw and band but the first.
+  bool goesOn();
+  bool isAbandoned() const { return isAbandoned_; }
 
   void begin();
   void operator()(const Upload& upload);
@@ -92,7 +97,15 @@ private:
   Viewport viewport_{-1, -1, -1, -1};
   bool scissor_ = false;
   double most_, pending_ = 0; // milliseconds, of what GL gets at once; 0: no limit
+  const std::function<bool()>& betweenDraws_;
+  bool isDrawing_ = false, isAbandoned_ = false;
 };
+
+bool Drawer::goesOn() {
+  const bool isFirst = !std::exchange(isDrawing_, true);
+  if (!isFirst && betweenDraws_ && !isAbandoned_) isAbandoned_ = !betweenDraws_();
+  return !isAbandoned_;
+}
 
 void Drawer::begin() {
   gl_.BindVertexArray(objects_.vertexArray);
@@ -154,13 +167,19 @@ void Drawer::drawVertices(const Draw& draw) {
     gl_.DrawArraysInstanced(gl::TRIANGLES, draw.firstVertex, draw.vertices, draw.instances);
 }
 
+// Timer queries would take what betweenDraws does for the draw's own.
 void Drawer::drawBands(const Draw& draw) {
-  const bool learns = gl_.timerQueries && draw.bands.estimate > 0;
+  const bool learns = gl_.timerQueries && draw.bands.estimate > 0 && !betweenDraws_;
   if (learns) paces_.begin(draw.title, draw.bands.estimate, draw.bandCount());
   if (draw.isWhole()) endScissor();
   bool first = true;
   forEachBand(draw.viewport, draw.bands.size, [&](const Viewport& band) {
-    if (!std::exchange(first, false)) recorder_.nextBand();
+    if (!std::exchange(first, false)) {
+      if (isAbandoned_) return;
+      recorder_.nextBand();
+      if (!goesOn()) return;
+      recorder_.resume();
+    }
     submit(draw.bands.milliseconds);
     if (!draw.isWhole()) setScissor(band);
     drawVertices(draw);
@@ -313,13 +332,16 @@ UnitsUsed unitsOf(const FramePlan& plan) {
   return used;
 }
 
-void drawPlan(const FramePlan& plan, const gl::Functions& gl, const DrawObjects& objects, PassRecorder& recorder,
-              BandPaces& paces) {
-  Drawer drawer(gl, objects, recorder, paces, plan.bandMilliseconds);
+bool drawPlan(const FramePlan& plan, const gl::Functions& gl, const DrawObjects& objects, PassRecorder& recorder,
+              BandPaces& paces, const std::function<bool()>& betweenDraws) {
+  Drawer drawer(gl, objects, recorder, paces, plan.bandMilliseconds, betweenDraws);
   drawer.begin();
-  for (const Step& step : plan.steps)
+  for (const Step& step : plan.steps) {
+    if (drawer.isAbandoned() || (std::holds_alternative<Draw>(step) && !drawer.goesOn())) break;
     std::visit(drawer, step);
+  }
   drawer.end();
+  return !drawer.isAbandoned();
 }
 
 } // namespace tyndall

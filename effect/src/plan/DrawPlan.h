@@ -1,4 +1,4 @@
-// Carries a plan out. Nothing in it can fail but by a lost context; nothing waits.
+// Carries a plan out. Nothing in it can fail but by a lost context; nothing waits, but for what betweenDraws does.
 #pragma once
 
 #include "BandPaces.h"
@@ -7,6 +7,8 @@
 #include "gl/StateGuard.h"
 #include "plan/BlockBuffers.h"
 #include "plan/FramePlan.h"
+
+#include <functional>
 
 namespace tyndall {
 
@@ -37,7 +39,8 @@ Status resolvePrograms(FramePlan& plan, gl::ProgramCache& programs, Resolve what
 
 UnitsUsed unitsOf(const FramePlan& plan);
 
-void drawPlan(const FramePlan& plan, const gl::Functions& gl, const DrawObjects& objects, PassRecorder& recorder,
-              BandPaces& paces);
+/// False: `betweenDraws` did not want the rest.
+bool drawPlan(const FramePlan& plan, const gl::Functions& gl, const DrawObjects& objects, PassRecorder& recorder,
+              BandPaces& paces, const std::function<bool()>& betweenDraws);
 
 } // namespace tyndall

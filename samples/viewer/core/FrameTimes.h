@@ -8,12 +8,20 @@ namespace viewer {
 
 class FrameTimes {
 public:
-  void add(double milliseconds) {
-    if (times_.size() == kMost) times_.erase(times_.begin());
+  void add(double milliseconds, bool hasCompiled) {
+    if (times_.size() == kMost) {
+      times_.erase(times_.begin());
+      compiled_.erase(compiled_.begin());
+    }
     times_.push_back(static_cast<float>(milliseconds));
+    compiled_.push_back(hasCompiled);
   }
   const std::vector<float>& times() const { return times_; } ///< oldest first
-  void clear() { times_.clear(); }
+  bool hasCompiled(std::size_t i) const { return compiled_[i]; } ///< a driver compiled programs meanwhile
+  void clear() {
+    times_.clear();
+    compiled_.clear();
+  }
 
   /// The time that this share of them does not exceed; 0 without any.
   float quantile(double share) const {
@@ -24,9 +32,11 @@ public:
     return *place;
   }
 
-private:
   static constexpr std::size_t kMost = 240;
+
+private:
   std::vector<float> times_;
+  std::vector<bool> compiled_;
 };
 
 } // namespace viewer

@@ -2,11 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <gl/Driver.h>
 #include <scene/Error.h>
 #include <scene/FileIo.h>
 #include <settings/StateFile.h>
 
 namespace viewer {
+
+namespace {
+
+/// How far in front of a camera its target is to be: as far as the scene's middle, if that is ahead.
+double distanceToMiddle(const tyndall::Camera& camera, const host::Bounds& bounds) {
+  const LookAt near = lookAtOf(camera, 1);
+  const glm::dvec3 middle = 0.5 * (bounds.low + bounds.high);
+  const double toMiddle = glm::dot(middle - near.eye, glm::normalize(near.target - near.eye));
+  return std::max({toMiddle, 0.05 * glm::length(bounds.high - bounds.low), 1e-3});
+}
+
+} // namespace
 
 Viewer::Viewer(const host::Context& context, tyndall::ProgramStore programs)
     : context_(context), programs_(std::move(programs)), meter_(configOf()), probe_(host::makeFramebuffer()) {
@@ -15,12 +28,16 @@ Viewer::Viewer(const host::Context& context, tyndall::ProgramStore programs)
 
 Viewer::~Viewer() = default;
 
-tyndall::Config Viewer::configOf() const {
+tyndall::Config Viewer::configOf() {
   tyndall::Config config;
   config.loader = context_.loader();
   config.timing = render::timingFor(context_);
   config.programs = programs_;
   config.tuning = tuning_;
+  config.betweenDraws = [this] { return goesOn(); };
+  // So short that a window lives on between them, however slow the processor: limits are of a slow GPU.
+  constexpr double kBand = 0.5;
+  if (host::isSoftware(context_.driver()) && tuning_.bandMilliseconds < 0) config.tuning.bandMilliseconds = kBand;
   return config;
 }
 
@@ -78,6 +95,13 @@ void Viewer::saveState(const std::filesystem::path& file) {
   }
 }
 
+/// Of a scene without a camera.
+LookAt Viewer::madeUpView(const render::SceneDrawer& drawer, const settings::State& state, host::Notes& notes) {
+  const std::vector<glm::dmat4> pose = host::poseAt(drawer.scene(), state.seconds);
+  const tyndall::Camera camera = render::SceneDrawer::cameraOf(drawer.scene(), state, pose, notes);
+  return lookAtOf(camera, distanceToMiddle(camera, host::boundsOf(drawer.boxes(), pose)));
+}
+
 void Viewer::takeScene(SceneLoader::Result result) {
   if (!result.scene) {
     if (result.error != "cancelled") say(result.error, true);
@@ -91,6 +115,7 @@ void Viewer::takeScene(SceneLoader::Result result) {
       state.lookAt.reset();
       state.lights.reset();
       state.medium.reset();
+      state.path.clear();
       state.seconds = 0;
     }
     host::Notes notes = result.scene->notes;
@@ -101,11 +126,14 @@ void Viewer::takeScene(SceneLoader::Result result) {
     settings::State withoutMedium = state;
     withoutMedium.medium.reset();
     sceneMedium_ = drawer->mediumOf(withoutMedium, notes);
+    if (!state.lookAt && !state.camera && host::cameraNodes(drawer->scene()).empty())
+      state.lookAt = madeUpView(*drawer, state, notes);
     drawer_ = std::move(drawer);
     notes_ = notes;
     history_.reset(state);
     duration_ = durationOf(drawer_->scene());
-    playback.isPlaying = false;
+    playback.isPlaying = isRecording_ = false;
+    pathSeconds_ = -1;
     exposure_.reset();
     frameTimes_.clear();
     drawn_ = Drawn::Nothing;
@@ -148,9 +176,9 @@ void Viewer::resize(int width, int height) {
 tyndall::Camera Viewer::sceneCamera(const std::vector<glm::dmat4>& pose) const {
   host::Notes ofNoConcern;
   try {
-    return drawer_->cameraOf(history_.state(), pose, ofNoConcern);
+    return render::SceneDrawer::cameraOf(drawer_->boxes(), history_.state(), pose, ofNoConcern);
   } catch (const host::Error&) { // which is said when it is drawn
-    return host::makeDefaultCamera(drawer_->scene(), pose, 1, {}, ofNoConcern);
+    return host::makeDefaultCamera(drawer_->boxes(), pose, 1, {}, ofNoConcern);
   }
 }
 
@@ -158,16 +186,12 @@ LookAt Viewer::view() const {
   const settings::State& state = history_.state();
   if (state.lookAt || !drawer_) return state.lookAt.value_or(LookAt());
   const std::vector<glm::dmat4> pose = host::poseAt(drawer_->scene(), state.seconds);
-  const host::Bounds bounds = host::boundsOf(drawer_->scene(), pose);
   const tyndall::Camera camera = sceneCamera(pose);
-  const LookAt near = lookAtOf(camera, 1);
-  const glm::dvec3 middle = 0.5 * (bounds.low + bounds.high);
-  const double toMiddle = glm::dot(middle - near.eye, glm::normalize(near.target - near.eye));
-  const double size = glm::length(bounds.high - bounds.low);
-  return lookAtOf(camera, std::max({toMiddle, 0.05 * size, 1e-3}));
+  return lookAtOf(camera, distanceToMiddle(camera, host::boundsOf(drawer_->boxes(), pose)));
 }
 
 void Viewer::setView(const LookAt& view) {
+  if (!isRecording_) pathSeconds_ = -1;
   settings::State state = history_.state();
   state.lookAt = view;
   state.camera.reset();
@@ -189,7 +213,7 @@ void Viewer::useSceneCamera(int index) {
 void Viewer::frameAll() {
   if (!drawer_) return;
   const settings::State& state = history_.state();
-  const host::Bounds bounds = host::boundsOf(drawer_->scene(), host::poseAt(drawer_->scene(), state.seconds));
+  const host::Bounds bounds = host::boundsOf(drawer_->boxes(), host::poseAt(drawer_->scene(), state.seconds));
   setView(framed(view(), bounds, static_cast<double>(state.width) / state.height));
 }
 
@@ -201,10 +225,48 @@ void Viewer::setSeconds(double seconds) {
   changed();
 }
 
-void Viewer::compareWith(const std::optional<tyndall::Settings>& settings) {
-  compared_ = settings;
-  if (!compared_) showsSecond_ = false;
-  changed();
+double Viewer::sceneSize() const {
+  if (!drawer_) return 1;
+  const host::Bounds bounds = host::boundsOf(drawer_->boxes(), host::poseAt(drawer_->scene(), 0));
+  return std::max(glm::length(bounds.high - bounds.low), 1e-6);
+}
+
+void Viewer::record(bool records) {
+  if (records == isRecording_ || !drawer_) return;
+  isRecording_ = records;
+  pathSeconds_ = records ? 0 : -1;
+  if (records) {
+    recorded_ = {{0, view()}};
+    return;
+  }
+  settings::State state = history_.state();
+  state.path = std::move(recorded_);
+  edit("record path", state);
+  endEdit();
+}
+
+void Viewer::playPath(bool plays) {
+  record(false);
+  pathSeconds_ = plays && !state().path.empty() ? 0 : -1;
+}
+
+void Viewer::addToPath(double passed) {
+  pathSeconds_ += passed;
+  addPoint(recorded_, pathSeconds_, view());
+  if (recorded_.size() < settings::kMostPathPoints) return;
+  record(false);
+  say("the path is recorded: it may have no more than " + std::to_string(settings::kMostPathPoints) + " points");
+}
+
+void Viewer::followPath(double passed) {
+  const std::vector<settings::PathPoint>& path = state().path;
+  if (path.empty()) return playPath(false);
+  const double end = path.back().seconds;
+  double seconds = pathSeconds_ + passed * playback.speed;
+  const bool isOver = seconds > end;
+  if (isOver) seconds = playback.loops && end > 0 ? std::fmod(seconds, end) : end;
+  setView(viewAt(path, seconds));
+  pathSeconds_ = isOver && !playback.loops ? -1 : seconds;
 }
 
 } // namespace viewer

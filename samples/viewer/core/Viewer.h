@@ -5,12 +5,15 @@
 #include "ErrorMeter.h"
 #include "FrameTimes.h"
 #include "History.h"
+#include "CameraPath.h"
 #include "Navigation.h"
 #include "Playback.h"
 #include "Quality.h"
 #include "SceneLoader.h"
 #include "Way.h"
 
+#include <chrono>
+#include <functional>
 #include <gl/Context.h>
 #include <render/RenderFrame.h>
 
@@ -46,6 +49,8 @@ public:
   void savePicture(const std::filesystem::path& file);
   const SceneLoader& loader() const { return loader_; }
   const host::Scene* scene() const { return drawer_ ? &drawer_->scene() : nullptr; }
+  bool hasVolumes() const { return drawer_ && drawer_->hasVolumes(); } ///< smoke or strands
+  double sceneSize() const; ///< the diagonal of its bounds; 1 without a scene
   double duration() const { return duration_; }
 
   const settings::State& state() const { return history_.state(); }
@@ -65,11 +70,16 @@ public:
   void setSeconds(double seconds);
   Playback playback;
 
-  /// A second way of drawing the same; none: there is none.
-  void compareWith(const std::optional<tyndall::Settings>& settings);
-  const std::optional<tyndall::Settings>& compared() const { return compared_; }
+  /// The state's path: the camera's views are added to it from now on, which makes a new one, or are not any more.
+  void record(bool records);
+  bool isRecording() const { return isRecording_; }
+  double pathSeconds() const { return pathSeconds_; } ///< that were recorded, or played, so far
+  /// The camera takes the path from its begin, once, or again and again as the playback says; until it is moved.
+  void playPath(bool plays);
+  bool isOnPath() const { return pathSeconds_ >= 0; }
 
-  /// How both are shown, at once: up to where the first is, the second in its place, and what is full red or blue.
+  /// How the state's two ways are shown, at once: up to where the first is, the second in its place, and what is full
+  /// red or blue.
   void setWipe(float share);
   void showSecond(bool shows);
   void setDifferenceScale(float scale);
@@ -79,8 +89,15 @@ public:
   bool measuresErrors = true;
   Quality quality;
 
-  /// To be called again and again, with seconds of any clock. Returns soon: it draws a frame, or a part of one.
+  /// To be called again and again, with seconds of any clock: the one function that draws, in the context that it was
+  /// made in, and may take long. Meanwhile it calls whileDrawing.
   Activity update(double now);
+  /// Called every few hundredths of a second where update() takes longer, so that a window may live on. It may make
+  /// another context current for a while, and call all but what draws: update(), pixelAt(), savePicture(). What has
+  /// changed after it ends what is being drawn. Null: nothing is.
+  std::function<void()> whileDrawing;
+  /// Ends what update() is about, from whileDrawing.
+  void abandon() { isAbandoned_ = true; }
 
   GLuint picture() const { return display_.texture(); }
   /// Of what is shown, at a point of the picture from (0, 0) at the left bottom to (1, 1).
@@ -91,11 +108,12 @@ public:
   };
   PixelValues pixelAt(double x, double y) const;
 
-  bool isSettled() const; ///< at full quality, nothing moves
+  bool isDrawing() const { return isInterruptible_; } ///< at full quality, at the moment
+  bool isSettled() const;                             ///< at full quality, nothing moves
   bool isMeasured() const { return meter_.isComplete(); }
   const ErrorMeter& meter() const { return meter_; }
   const Way& first() const { return *first_; }
-  const Way* second() const { return compared_ ? second_.get() : nullptr; }
+  const Way* second() const { return state().compared ? second_.get() : nullptr; } ///< none: nothing is compared
   const host::RenderTargets& surfaces() const { return *surfaces_; } ///< of a scene that was drawn
   const FrameTimes& frameTimes() const { return frameTimes_; }
   double sceneMilliseconds() const { return sceneMilliseconds_; } ///< of maps and surfaces, in the last frame
@@ -110,24 +128,41 @@ public:
 private:
   enum class Drawn { Nothing, Moving, Full };
 
+  /// What a picture that may be given up is about.
+  class Interruptible {
+  public:
+    explicit Interruptible(Viewer& viewer);
+    ~Interruptible() { viewer_.isInterruptible_ = false; }
+    Interruptible(const Interruptible&) = delete;
+    Interruptible& operator=(const Interruptible&) = delete;
+
+  private:
+    Viewer& viewer_;
+  };
+
   void say(const std::string& text, bool isError = false) { message_ = Message{text, isError}; }
-  tyndall::Config configOf() const;
+  tyndall::Config configOf();
   void makeWays();
   tyndall::Camera sceneCamera(const std::vector<glm::dmat4>& pose) const;
   render::Picture readPicture() const;
+  static LookAt madeUpView(const render::SceneDrawer& drawer, const settings::State& state, host::Notes& notes);
   void takeScene(SceneLoader::Result result);
   void advance(double passed);
+  void followPath(double passed);
+  void addToPath(double passed);
   void changed();
   bool isMoving(double now) const;
-  void drawScene(const settings::State& state);
-  void drawWay(Way& way, const tyndall::Settings& settings, bool inSteps);
+  bool goesOn();
+  void drawScene(const settings::State& state, bool isCoarse);
+  bool drawWay(Way& way, const tyndall::Settings& settings);
   void prepareTargets(const settings::State& state);
   void drawMoving();
   void settle();
   void measure();
   bool needsMeasuring() const;
   Activity proceed(double now);
-  void show();
+  void show() { isShown_ = false; }
+  void drawDisplay();
   void updateExposure();
 
   const host::Context& context_;
@@ -135,7 +170,6 @@ private:
   SceneLoader loader_;
   std::optional<settings::State> loadedState_; ///< for the scene that is being loaded
   History history_;
-  std::optional<tyndall::Settings> compared_;
   std::unique_ptr<render::SceneDrawer> drawer_;
   std::unique_ptr<host::RenderTargets> surfaces_;
   int samples_ = 1; ///< of a pixel of the surfaces
@@ -152,6 +186,13 @@ private:
   double now_ = 0, lastChange_ = -1;
   Drawn drawn_ = Drawn::Nothing;
   bool isDirty_ = false;   ///< changed since it was drawn
+  bool isShown_ = true;    ///< as it was drawn
+  bool isRecording_ = false;
+  std::vector<settings::PathPoint> recorded_; ///< so far
+  double pathSeconds_ = -1; ///< from the begin of the path that is taken or recorded; negative: none is
+  bool isInterruptible_ = false, isAbandoned_ = false;
+  std::chrono::steady_clock::time_point lastPause_; ///< the end of the last call of whileDrawing
+  double pauses_ = 0;                               ///< milliseconds in them, of this picture
   bool hasFailed_ = false; ///< until something is changed
   std::optional<float> exposure_;
   FrameTimes frameTimes_;

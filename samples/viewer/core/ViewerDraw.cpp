@@ -39,12 +39,38 @@ bool isSame(const tyndall::Tuning& a, const tyndall::Tuning& b) {
 } // namespace
 
 bool Viewer::isMoving(double now) const {
-  return isDirty_ || (playback.isPlaying && duration_ > 0) || now - lastChange_ < kRest;
+  return isDirty_ || (playback.isPlaying && duration_ > 0) || (isOnPath() && !isRecording_) || now - lastChange_ < kRest;
 }
 
-bool Viewer::isSettled() const { return drawn_ == Drawn::Full && !isDirty_ && first_->isWhole() && second_->isWhole(); }
+bool Viewer::isSettled() const { return drawn_ == Drawn::Full && !isDirty_; }
+
+Viewer::Interruptible::Interruptible(Viewer& viewer) : viewer_(viewer) {
+  viewer_.isInterruptible_ = true;
+  viewer_.isAbandoned_ = false;
+  viewer_.pauses_ = 0;
+  viewer_.lastPause_ = std::chrono::steady_clock::now();
+}
+
+// Asked between draws. GL is waited for: what is not done yet cannot be given up, and takes a window's time all the same.
+bool Viewer::goesOn() {
+  constexpr double kPause = 40; // milliseconds between two
+  if (!isInterruptible_) return true;
+  host::gl().Finish();
+  if (whileDrawing && millisecondsSince(lastPause_) > kPause) {
+    const auto start = std::chrono::steady_clock::now();
+    whileDrawing();
+    pauses_ += millisecondsSince(start);
+    lastPause_ = std::chrono::steady_clock::now();
+  }
+  const bool isPlaying = (playback.isPlaying && duration_ > 0) || (isOnPath() && !isRecording_);
+  return !isDirty_ && !isAbandoned_ && !isPlaying;
+}
 
 void Viewer::advance(double passed) {
+  if (isRecording_)
+    addToPath(passed);
+  else if (isOnPath())
+    followPath(passed);
   if (!playback.isPlaying || duration_ <= 0) return;
   const double seconds = playback.advanced(state().seconds, passed, duration_);
   if (seconds == state().seconds) return;
@@ -59,7 +85,10 @@ Activity Viewer::update(double now) {
   if (!drawer_) return loader_.isLoading() ? Activity::Waiting : Activity::Idle;
   advance(passed);
   try {
-    return proceed(now);
+    const Activity activity = proceed(now);
+    if (isShown_) return activity;
+    drawDisplay();
+    return Activity::Drew;
   } catch (const host::Error& error) {
     say(error.what(), true);
     hasFailed_ = true;
@@ -96,7 +125,7 @@ void Viewer::prepareTargets(const settings::State& state) {
   drawer_->forgetSurfaces();
 }
 
-void Viewer::drawScene(const settings::State& state) {
+void Viewer::drawScene(const settings::State& state, bool isCoarse) {
   const auto start = std::chrono::steady_clock::now();
   if (!isSame(tuning_, state.tuning)) {
     tuning_ = state.tuning;
@@ -111,6 +140,7 @@ void Viewer::drawScene(const settings::State& state) {
   frame_.medium = state.medium ? *state.medium : sceneMedium_;
   render::Moment moment;
   moment.seconds = state.seconds;
+  moment.isCoarse = isCoarse;
   host::Notes notes;
   drawer_->draw(drawn, moment, *surfaces_, frame_, notes);
   render::addOnce(notes_, notes);
@@ -118,47 +148,44 @@ void Viewer::drawScene(const settings::State& state) {
   sceneMilliseconds_ = millisecondsSince(start);
 }
 
-void Viewer::drawWay(Way& way, const tyndall::Settings& settings, bool inSteps) {
-  const tyndall::Settings drawn = drawnSettings(settings);
-  if (inSteps && Way::isDrawnInSteps(drawn))
-    way.begin(*surfaces_, frame_, drawn);
-  else
-    way.draw(*surfaces_, frame_, drawn);
+bool Viewer::drawWay(Way& way, const tyndall::Settings& settings) {
+  const double before = pauses_;
+  const bool isWhole = way.draw(*surfaces_, frame_, drawnSettings(settings));
+  way.leaveOut(pauses_ - before);
+  return isWhole;
 }
 
 void Viewer::drawMoving() {
   const auto start = std::chrono::steady_clock::now();
-  settings::State fast = atLevel(state(), quality.level());
-  drawScene(fast);
-  drawWay(*first_, fast.settings, false);
-  if (compared_) {
+  const settings::State fast = atLevel(state(), quality.level());
+  pauses_ = 0;
+  drawScene(fast, quality.level() > 0);
+  drawWay(*first_, fast.settings);
+  if (state().compared) {
     settings::State other = state();
-    other.settings = *compared_;
-    drawWay(*second_, atLevel(other, quality.level()).settings, false);
+    other.settings = state().compared->settings;
+    drawWay(*second_, atLevel(other, quality.level()).settings);
   }
   isDirty_ = false;
   drawn_ = Drawn::Moving;
   if (!exposure_) updateExposure();
   show();
   const double took = millisecondsSince(start);
-  quality.drew(took);
-  frameTimes_.add(took);
+  const bool hasCompiled = first_->hasCompiled() || (state().compared && second_->hasCompiled());
+  if (!hasCompiled) quality.drew(took);
+  frameTimes_.add(took, hasCompiled);
 }
 
+// What is changed meanwhile is of the next picture, and gives this one up.
 void Viewer::settle() {
-  const double step = kStepShare * quality.target();
-  if (drawn_ != Drawn::Full || isDirty_) {
-    drawScene(state());
-    drawWay(*first_, state().settings, true);
-    if (compared_) drawWay(*second_, *compared_, true);
-    drawn_ = Drawn::Full;
-    isDirty_ = false;
-  } else if (!first_->isWhole()) {
-    first_->step(step);
-  } else {
-    second_->step(step);
-  }
-  if (first_->isWhole()) updateExposure();
+  const Interruptible interruptible(*this);
+  const settings::State full = state();
+  isDirty_ = false;
+  drawScene(full, false);
+  if (!goesOn() || !drawWay(*first_, full.settings) || !goesOn()) return;
+  if (full.compared && (!drawWay(*second_, full.compared->settings) || !goesOn())) return;
+  drawn_ = Drawn::Full;
+  updateExposure();
   show();
 }
 
@@ -171,7 +198,7 @@ bool Viewer::needsMeasuring() const {
 void Viewer::measure() {
   if (!meter_.isRunning()) {
     std::vector<const Way*> ways = {first_.get()};
-    if (compared_) ways.push_back(second_.get());
+    if (state().compared) ways.push_back(second_.get());
     meter_.begin(*surfaces_, ways);
     return;
   }
@@ -190,7 +217,8 @@ void Viewer::updateExposure() {
   exposure_ = render::exposureOf(picture);
 }
 
-void Viewer::show() {
+void Viewer::drawDisplay() {
+  isShown_ = true;
   if (first_->width() == 0) return;
   DisplayOptions options = options_;
   const tyndall::DebugView view = state().settings.debugView;
@@ -203,10 +231,11 @@ void Viewer::show() {
     options.exactMean = static_cast<float>(std::max(meter_.errors().front().mean, 1e-30));
     options.exactRows = static_cast<float>(meter_.share());
   }
-  if (!compared_) options.wipe = 1;
+  const bool isCompared = state().compared.has_value();
+  if (!isCompared) options.wipe = 1;
   const Shown first{first_->composite(), first_->inscatter()};
-  const Shown second = compared_ && second_->width() > 0 ? Shown{second_->composite(), second_->inscatter()} : first;
-  if (compared_ && showsSecond_) options.wipe = 0;
+  const Shown second = isCompared && second_->width() > 0 ? Shown{second_->composite(), second_->inscatter()} : first;
+  if (isCompared && showsSecond_) options.wipe = 0;
   display_.draw(first, second, options, state().width, state().height);
 }
 
@@ -227,7 +256,7 @@ void Viewer::setDifferenceScale(float scale) {
 }
 
 Viewer::PixelValues Viewer::pixelAt(double x, double y) const {
-  const Way& way = compared_ && (showsSecond_ || x >= options_.wipe) ? *second_ : *first_;
+  const Way& way = second() && (showsSecond_ || x >= options_.wipe) ? *second_ : *first_;
   PixelValues values;
   if (way.width() == 0) return values;
   values.x = std::clamp(static_cast<int>(x * way.width()), 0, way.width() - 1);
@@ -267,9 +296,12 @@ void Viewer::savePicture(const std::filesystem::path& file) {
   try {
     if (!drawer_) throw host::Error("there is no picture to save: no scene is loaded");
     render::requirePictureName(file);
-    drawScene(state());
-    first_->draw(*surfaces_, frame_, state().settings); // at once, to the last bit as tyndall-render does
-    changed();
+    const bool isOwnView = first_->width() > 0 && first_->frame().settings.debugView == state().settings.debugView;
+    if (!isSettled() || !isOwnView) {
+      drawScene(state(), false);
+      drawWay(*first_, state().settings);
+      changed();
+    }
     render::Options options;
     static_cast<settings::State&>(options) = state();
     render::writePicture(file, readPicture(), options, static_cast<float>(std::exp2(exposureStops())));

@@ -12,13 +12,6 @@ Way::Way(const tyndall::Config& config) {
   effect_ = std::move(created.effect);
 }
 
-bool Way::isDrawnInSteps(const tyndall::Settings& settings) {
-  using tyndall::DebugView;
-  const DebugView view = settings.debugView;
-  return settings.technique == tyndall::Technique::Exact &&
-         (view == DebugView::Composite || view == DebugView::Inscatter || view == DebugView::Transmittance);
-}
-
 void Way::prepare(const host::RenderTargets& surfaces, tyndall::Frame frame, const tyndall::Settings& settings) {
   const int width = surfaces.width(), height = surfaces.height();
   if (!composite_ || composite_->width() != width || composite_->height() != height) {
@@ -47,21 +40,27 @@ void Way::copySurfaces(const host::RenderTargets& surfaces) const {
   gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-double Way::render(const tyndall::Frame& frame) {
+bool Way::render(const tyndall::Frame& frame) {
   host::gl().Finish();
   const auto start = std::chrono::steady_clock::now();
   const tyndall::Status status = effect_->render(frame);
   host::gl().Finish();
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+  renderMilliseconds_ = time.count();
+  if (status.code == tyndall::StatusCode::Abandoned) return false;
   if (!status) throw host::Error("effect: " + status.message);
-  return time.count();
+  return true;
 }
 
-void Way::draw(const host::RenderTargets& surfaces, tyndall::Frame frame, const tyndall::Settings& settings) {
+bool Way::draw(const host::RenderTargets& surfaces, tyndall::Frame frame, const tyndall::Settings& settings) {
   prepare(surfaces, std::move(frame), settings);
   bands_ = {};
-  milliseconds_ = render(frame_);
+  if (!render(frame_)) return false;
+  milliseconds_ = renderMilliseconds_;
   statistics_ = effect_->statistics();
+  hasCompiled_ = statistics_.compiledPrograms > programs_;
+  programs_ = statistics_.compiledPrograms;
+  return true;
 }
 
 void Way::begin(const host::RenderTargets& surfaces, tyndall::Frame frame, const tyndall::Settings& settings) {
@@ -76,9 +75,9 @@ void Way::begin(const host::RenderTargets& surfaces, tyndall::Frame frame, const
 tyndall::Rectangle Way::step(double milliseconds) {
   if (isWhole()) return {};
   const tyndall::Rectangle part = bands_.next(pace_.pixelsFor(milliseconds));
-  const double took = render(croppedTo(frame_, part));
-  pace_.took(static_cast<double>(part.width) * part.height, took);
-  milliseconds_ += took;
+  render(croppedTo(frame_, part));
+  pace_.took(static_cast<double>(part.width) * part.height, renderMilliseconds_);
+  milliseconds_ += renderMilliseconds_;
   const tyndall::Statistics now = effect_->statistics();
   const std::uint64_t marched = statistics_.marchedSamples + now.marchedSamples;
   statistics_ = now;

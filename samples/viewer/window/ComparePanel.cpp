@@ -6,13 +6,18 @@ namespace viewer {
 
 namespace {
 
-void chooseProfile(Session& session) {
+void edit(Viewer& viewer, const std::string& what, const settings::Compared& compared) {
+  settings::State state = viewer.state();
+  state.compared = compared;
+  viewer.edit("compared." + what, state);
+}
+
+void chooseProfile(Viewer& viewer) {
   for (const settings::Choice& profile : settings::kProfiles) {
     const auto value = static_cast<tyndall::Profile>(profile.value);
     if (profile.value > 0) ImGui::SameLine();
-    if (!ImGui::RadioButton(profile.enumerator, session.comparedProfile == value)) continue;
-    session.comparedProfile = value;
-    session.viewer.compareWith(tyndall::settingsOf(value));
+    if (ImGui::RadioButton(profile.enumerator, viewer.state().compared->profile == value))
+      edit(viewer, "profile", {value, tyndall::settingsOf(value)});
   }
 }
 
@@ -23,14 +28,15 @@ void drawSecond(Session& session) {
   if (ImGui::SliderFloat("##wipe", &percent, 0, 100, "wipe: A to %.0f %%")) viewer.setWipe(percent / 100);
   ImGui::Checkbox("blink (B)", &session.blinks);
   ImGui::SameLine();
-  if (ImGui::SmallButton("B takes A's")) viewer.compareWith(viewer.state().settings);
+  if (ImGui::SmallButton("B takes A's")) edit(viewer, "all", {viewer.state().profile, viewer.state().settings});
   ImGui::SameLine();
   if (ImGui::SmallButton("A takes B's")) {
     settings::State state = viewer.state();
-    state.settings = *viewer.compared();
-    state.profile = session.comparedProfile;
+    state.settings = state.compared->settings;
+    state.profile = state.compared->profile;
     viewer.edit("settings of B", state);
   }
+  if (!viewer.second()) return; // A has just taken B's
   ImGui::Text("effect: A %.1f ms, B %.1f ms", viewer.first().milliseconds(), viewer.second()->milliseconds());
   const std::vector<Errors>& errors = viewer.meter().errors();
   if (errors.size() > 1)
@@ -38,21 +44,23 @@ void drawSecond(Session& session) {
                 100 * errors[1].rRmse, 100 * errors[0].p99, 100 * errors[1].p99);
   ImGui::Separator();
   ImGui::TextUnformatted("Settings of B");
-  chooseProfile(session);
-  tyndall::Settings edited = *viewer.compared();
+  chooseProfile(viewer);
+  settings::Compared edited = *viewer.state().compared;
   std::string field;
-  if (editRows(settings::settingsTable(), edited, tyndall::settingsOf(session.comparedProfile), field, {"debugView"}))
-    viewer.compareWith(edited);
+  if (editRows(settings::settingsTable(), edited.settings, tyndall::settingsOf(edited.profile), field, {"debugView"}))
+    edit(viewer, field, edited);
 }
 
 } // namespace
 
 void drawComparePanel(Session& session) {
   Viewer& viewer = session.viewer;
-  bool isCompared = viewer.compared().has_value();
+  bool isCompared = viewer.state().compared.has_value();
   if (ImGui::Checkbox("compare A, the settings, with B", &isCompared)) {
-    viewer.compareWith(isCompared ? std::optional(tyndall::settingsOf(session.comparedProfile)) : std::nullopt);
-    viewer.setWipe(0.5F);
+    settings::State compared = viewer.state();
+    compared.compared = isCompared ? std::optional(settings::Compared()) : std::nullopt;
+    viewer.edit("compared", compared);
+    if (isCompared) viewer.setWipe(0.5F);
   }
   ImGui::Checkbox("magnifier (M)", &session.hasMagnifier);
   settings::State state = viewer.state();
@@ -69,7 +77,7 @@ void drawComparePanel(Session& session) {
                            ImGuiSliderFlags_Logarithmic))
       viewer.setDifferenceScale(std::max(percent, 0.1F) / 100);
   }
-  if (viewer.second()) drawSecond(session);
+  if (viewer.state().compared) drawSecond(session);
 }
 
 } // namespace viewer

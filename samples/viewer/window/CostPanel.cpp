@@ -68,8 +68,17 @@ void drawTimes(const FrameTimes& times) {
   ImGui::Text("Frame times: median %.0f ms, 95 %% %.0f ms", static_cast<double>(times.quantile(0.5)),
               static_cast<double>(times.quantile(0.95)));
   if (times.times().empty()) return;
-  ImGui::PlotLines("##times", times.times().data(), static_cast<int>(times.times().size()), 0, nullptr, 0,
-                   1.2F * times.quantile(1), ImVec2(ImGui::GetContentRegionAvail().x, 48));
+  const ImVec2 corner = ImGui::GetCursorScreenPos(), size(ImGui::GetContentRegionAvail().x, 48);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(corner, ImVec2(corner.x + size.x, corner.y + size.y), IM_COL32(40, 44, 52, 255));
+  const float most = 1.2F * times.quantile(1), step = size.x / static_cast<float>(FrameTimes::kMost);
+  for (std::size_t i = 0; i < times.times().size(); ++i) {
+    const float left = corner.x + step * static_cast<float>(i), height = size.y * times.times()[i] / most;
+    list.AddRectFilled(ImVec2(left, corner.y + size.y - height), ImVec2(left + step, corner.y + size.y),
+                       times.hasCompiled(i) ? IM_COL32(240, 120, 60, 255) : IM_COL32(120, 180, 240, 255));
+  }
+  ImGui::Dummy(size);
+  tooltip("each bar a frame while something moved; orange: the driver compiled shaders meanwhile");
 }
 
 } // namespace

@@ -21,11 +21,6 @@ Area areaOf(float panelWidth) {
   return {panelWidth, 0, std::max(display.x - panelWidth, 1.0F), display.y};
 }
 
-double sizeOf(const Viewer& viewer) {
-  const host::Bounds bounds = host::boundsOf(*viewer.scene(), host::poseAt(*viewer.scene(), 0));
-  return std::max(glm::length(bounds.high - bounds.low), 1e-6);
-}
-
 } // namespace
 
 void Window::drawPicture() {
@@ -82,11 +77,11 @@ void Window::drawStatus() {
   else if (!viewer_->scene() && text.empty())
     text = "choose a scene, or drop a glTF file here; F1: help";
   if (viewer_->scene() && viewer_->first().width() > 0) {
-    const bool isStepping = !viewer_->first().isWhole();
     text += text.empty() ? "" : "   |   ";
-    text += isStepping ? fmt::format("drawing {:.0f} %", 100 * viewer_->first().share())
-                       : fmt::format("{} {:.0f} ms", viewer_->isSettled() ? "full quality" : "adapted",
-                                     viewer_->sceneMilliseconds() + viewer_->first().milliseconds());
+    text += viewer_->isDrawing()
+                ? std::string("drawing at full quality ...")
+                : fmt::format("{} {:.0f} ms", viewer_->isSettled() ? "full quality" : "adapted",
+                              viewer_->sceneMilliseconds() + viewer_->first().milliseconds());
     if (viewer_->isMeasured())
       text += fmt::format("   |   rRMSE {:.2g} %", 100 * viewer_->meter().errors()[0].rRmse);
     else if (viewer_->meter().isRunning())
@@ -157,7 +152,7 @@ void Window::navigate() {
   if (isFlying_ && wasFlying) {
     constexpr double kLongest = 0.25; // of a frame that took long
     const double passed = std::min(now - lastFlight_, kLongest);
-    viewer_->setView(flown(viewer_->view(), direction * (passed * session_->flySpeed * sizeOf(*viewer_) / 10)));
+    viewer_->setView(flown(viewer_->view(), direction * (passed * session_->flySpeed * viewer_->sceneSize() / 10)));
   }
   lastFlight_ = now;
 }

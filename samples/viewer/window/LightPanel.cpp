@@ -52,6 +52,17 @@ void addLight(Session& session, std::vector<settings::StateLight>& lights) {
   session.light = static_cast<int>(lights.size()) - 1;
 }
 
+void drawMaps(Viewer& viewer, const char* name, const char* group, const settings::Table<settings::State>& table) {
+  settings::State state = viewer.state();
+  if (heading(name, isAtStart(table, state, settings::State()))) {
+    for (const auto& row : table.rows)
+      row.set(state, row.get(settings::State()));
+    return viewer.edit(std::string("reset ") + group, state);
+  }
+  std::string field;
+  if (editRows(table, state, settings::State(), field)) viewer.edit(std::string(group) + "." + field, state);
+}
+
 } // namespace
 
 std::vector<settings::StateLight> editableLights(const Viewer& viewer) {
@@ -103,14 +114,8 @@ void drawLightPanel(Session& session) {
     state.lights = lights;
     viewer.edit("lights[" + std::to_string(session.light) + "]." + edited, state);
   }
-  settings::State maps = viewer.state();
-  if (heading("Shadow maps", isAtStart(settings::mapsTable(), maps, settings::State()))) {
-    for (const auto& row : settings::mapsTable().rows)
-      row.set(maps, row.get(settings::State()));
-    return viewer.edit("reset maps", maps);
-  }
-  std::string field;
-  if (editRows(settings::mapsTable(), maps, settings::State(), field)) viewer.edit("maps." + field, maps);
+  drawMaps(viewer, "Shadow maps", "maps", settings::mapsTable());
+  if (viewer.hasVolumes()) drawMaps(viewer, "Smoke and strands", "volumes", settings::volumesTable());
 }
 
 } // namespace viewer

@@ -22,7 +22,8 @@ struct Session {
   bool hasMagnifier = false;
   bool blinks = false;
   Message message; ///< the last one
-  tyndall::Profile comparedProfile = tyndall::Profile::Performance;
+  std::optional<std::filesystem::path> pictureToSave;
+  Viewer::PixelValues magnified;
 };
 
 void drawScenePanel(Session& session);

@@ -125,7 +125,7 @@ void drawMagnifier(Session& session, const Area& area) {
   Viewer& viewer = session.viewer;
   if (!session.hasMagnifier || !viewer.scene() || !area.holds(mouse) || ImGui::GetIO().WantCaptureMouse) return;
   const glm::dvec2 at = inPicture(area, mouse);
-  const Viewer::PixelValues values = viewer.pixelAt(at.x, at.y);
+  const Viewer::PixelValues& values = session.magnified;
   const float halfWidth = 0.5F * kSide / kTimes / area.width, halfHeight = 0.5F * kSide / kTimes / area.height;
   const auto u = static_cast<float>(at.x), v = static_cast<float>(at.y);
   ImGui::BeginTooltip();

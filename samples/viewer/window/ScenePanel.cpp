@@ -31,6 +31,26 @@ void drawSamples(Session& session) {
   }
 }
 
+void drawPath(Viewer& viewer) {
+  const std::vector<settings::PathPoint>& path = viewer.state().path;
+  ImGui::BeginDisabled(!viewer.scene());
+  if (ImGui::SmallButton(viewer.isRecording() ? "end recording" : "record a path")) viewer.record(!viewer.isRecording());
+  tooltip("the camera's moves, to be played again; a saved state has them");
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  const bool isPlayed = viewer.isOnPath() && !viewer.isRecording();
+  ImGui::BeginDisabled(path.empty() || viewer.isRecording());
+  if (ImGui::SmallButton(isPlayed ? "leave the path" : "play the path")) viewer.playPath(!isPlayed);
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  if (viewer.isRecording())
+    ImGui::TextColored(ImVec4(1, 0.5F, 0.4F, 1), "%.1f s", viewer.pathSeconds());
+  else if (!path.empty())
+    ImGui::TextDisabled("%.1f of %.1f s", isPlayed ? viewer.pathSeconds() : 0.0, path.back().seconds);
+  else
+    ImGui::NewLine();
+}
+
 void drawCameras(Session& session) {
   Viewer& viewer = session.viewer;
   const std::vector<int> cameras = host::cameraNodes(viewer.scene() ? *viewer.scene() : host::Scene());
@@ -46,6 +66,7 @@ void drawCameras(Session& session) {
   settings::LookAt view = viewer.view();
   std::string edited;
   if (viewer.scene() && editRows(settings::lookAtTable(), view, settings::LookAt(), edited)) viewer.setView(view);
+  drawPath(viewer);
 }
 
 void drawAnimation(Session& session) {

@@ -13,6 +13,7 @@
 #include <scene/FileIo.h>
 #include <scene/Places.h>
 #include <scene/ProgramFiles.h>
+#include <utility>
 
 namespace viewer {
 
@@ -28,7 +29,11 @@ std::string lastError() {
   return description ? description : "no reason given";
 }
 
-GLFWwindow* makeWindow(const Layout& layout) {
+struct Windows {
+  GLFWwindow *seen = nullptr, *workshop = nullptr;
+};
+
+Windows makeWindows(const Layout& layout) {
   if (!glfwInit()) throw host::Error("no window: GLFW cannot start: " + lastError());
   for (const auto& [major, minor] : {std::pair{4, 5}, std::pair{4, 3}, std::pair{4, 1}, std::pair{3, 3}}) {
     glfwDefaultWindowHints();
@@ -36,12 +41,21 @@ GLFWwindow* makeWindow(const Layout& layout) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, minor);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-    if (GLFWwindow* window = glfwCreateWindow(layout.width, layout.height, "Tyndall viewer", nullptr, nullptr))
-      return window;
+    GLFWwindow* const seen = glfwCreateWindow(layout.width, layout.height, "Tyndall viewer", nullptr, nullptr);
+    if (!seen) continue;
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    if (GLFWwindow* const workshop = glfwCreateWindow(1, 1, "Tyndall viewer: pictures", nullptr, seen))
+      return {seen, workshop};
+    glfwDestroyWindow(seen);
   }
   const std::string reason = lastError();
   glfwTerminate();
   throw host::Error("no window with OpenGL 3.3: " + reason);
+}
+
+std::unique_ptr<host::Context> contextOf(GLFWwindow* window) {
+  return host::Context::adopt(
+      load, [window](bool isCurrent) { glfwMakeContextCurrent(isCurrent ? window : nullptr); }, {false});
 }
 
 tyndall::ProgramStore keptPrograms() {
@@ -55,15 +69,13 @@ Window& windowOf(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindo
 
 Window::Window() {
   const Layout layout = loadLayout();
-  window_ = makeWindow(layout);
+  const Windows windows = makeWindows(layout);
+  window_ = windows.seen;
+  workshop_ = windows.workshop;
   showsPanel_ = layout.showsPanel;
   glfwSetWindowUserPointer(window_, this);
-  context_ = host::Context::adopt(
-      load, [this](bool isCurrent) { glfwMakeContextCurrent(isCurrent ? window_ : nullptr); }, {false});
+  screen_ = contextOf(window_);
   glfwSwapInterval(1);
-  viewer_ = std::make_unique<Viewer>(*context_, keptPrograms());
-  session_ = std::make_unique<Session>(*viewer_);
-  session_->thumbnails.load(host::placeOf("scenes", TYNDALL_SCENES_DIR), TYNDALL_GALLERY_DIR);
   setCallbacks();
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr; // the layout is ours
@@ -72,16 +84,26 @@ Window::Window() {
   setScale(std::max(scaleX, scaleY));
   ImGui_ImplGlfw_InitForOpenGL(window_, true);
   ImGui_ImplOpenGL3_Init("#version 330 core");
+  drawing_ = contextOf(workshop_);
+  viewer_ = std::make_unique<Viewer>(*drawing_, keptPrograms());
+  viewer_->whileDrawing = [this] { turn(); };
+  session_ = std::make_unique<Session>(*viewer_);
+  session_->thumbnails.load(host::placeOf("scenes", TYNDALL_SCENES_DIR), TYNDALL_GALLERY_DIR);
+  host::gl().Finish();
 }
 
 Window::~Window() {
   keepLayout();
+  drawing_->makeCurrent();
+  session_.reset();
+  viewer_.reset();
+  drawing_.reset();
+  screen_->makeCurrent();
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
-  session_.reset();
-  viewer_.reset();
-  context_.reset();
+  screen_.reset();
+  glfwDestroyWindow(workshop_);
   glfwDestroyWindow(window_);
   glfwTerminate();
 }
@@ -133,6 +155,7 @@ void Window::run(const std::filesystem::path& file) {
   while (!glfwWindowShouldClose(window_)) {
     navigate();
     blink();
+    if (const auto picture = std::exchange(session_->pictureToSave, std::nullopt)) viewer_->savePicture(*picture);
     const Activity activity = viewer_->update(glfwGetTime());
     if (std::optional<Message> message = viewer_->takeMessage()) {
       session_->message = *message;
@@ -142,6 +165,15 @@ void Window::run(const std::filesystem::path& file) {
     if (framesToDraw_ > 0 || (activity != Activity::Idle && isDue)) drawInterface();
     waitForEvents(activity);
   }
+}
+
+// In the middle of a picture that takes long.
+void Window::turn() {
+  glfwPollEvents();
+  if (glfwWindowShouldClose(window_)) return viewer_->abandon();
+  navigate();
+  blink();
+  drawInterface();
 }
 
 // Nothing is done at rest until something happens.
@@ -168,6 +200,26 @@ void Window::layOut() {
 
 void Window::drawInterface(int unknownPress) {
   layOut();
+  lookCloser();
+  screen_->makeCurrent();
+  drawFrame(unknownPress);
+  drawing_->makeCurrent();
+}
+
+// At the pixel under the mouse; as long as one is being drawn, at what was seen before.
+void Window::lookCloser() {
+  if (!session_->hasMagnifier || !viewer_->scene() || viewer_->isDrawing()) return;
+  double x = 0, y = 0;
+  int width = 0, height = 0;
+  glfwGetCursorPos(window_, &x, &y);
+  glfwGetWindowSize(window_, &width, &height);
+  const double pictureWidth = static_cast<double>(width) - panelWidth_;
+  if (pictureWidth <= 0 || height <= 0) return;
+  const double across = (x - panelWidth_) / pictureWidth, up = 1 - y / height;
+  if (across >= 0 && across < 1 && up > 0 && up <= 1) session_->magnified = viewer_->pixelAt(across, up);
+}
+
+void Window::drawFrame(int unknownPress) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   if (unknownPress >= 0 && unknownPress < ImGuiMouseButton_COUNT) ImGui::GetIO().MouseDown[unknownPress] = false;
@@ -202,7 +254,8 @@ void Window::takeFile(const std::filesystem::path& file) {
   case Session::Asked::SaveState:
     return viewer_->saveState(file);
   case Session::Asked::SavePicture:
-    return viewer_->savePicture(file);
+    session_->pictureToSave = file;
+    return;
   }
 }
 

@@ -23,6 +23,7 @@ public:
   void run(const std::filesystem::path& scene);
 
 private:
+  void turn();
   void setScale(float scale);
   void setCallbacks();
   void wake() { framesToDraw_ = 3; }
@@ -33,6 +34,8 @@ private:
   void waitForEvents(Activity activity);
   void layOut();
   void drawInterface(int unknownPress = -1); ///< as if that button were not down
+  void drawFrame(int unknownPress);
+  void lookCloser();
   void drawPicture();
   void drawStatus();
   void drawPanel();
@@ -41,8 +44,10 @@ private:
   void blink();
   void keepLayout() const;
 
-  GLFWwindow* window_ = nullptr;
-  std::unique_ptr<host::Context> context_;
+  // Pictures are drawn in a context of their own, which shares its textures: the window may be drawn in the middle of
+  // one, whatever GL's state is then.
+  GLFWwindow *window_ = nullptr, *workshop_ = nullptr; ///< of the workshop nothing is seen
+  std::unique_ptr<host::Context> screen_, drawing_;    ///< theirs; the latter is current but in drawInterface()
   std::unique_ptr<Viewer> viewer_;
   std::unique_ptr<Session> session_;
   float scale_ = 1;      ///< of the interface, by the display

@@ -2,6 +2,7 @@
 set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/AirlightTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/BandsTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/BetweenDrawsTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/CascadeTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/CompositeTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ConventionTest.cpp

@@ -259,7 +259,7 @@ std::vector<std::string> callsOf(const FramePlan& plan) {
   const BlockBuffers blocks(gl);
   PassRecorder recorder(gl, PassTiming::Off);
   BandPaces paces(gl);
-  drawPlan(plan, gl, {1, 1, 1, blocks}, recorder, paces);
+  drawPlan(plan, gl, {1, 1, 1, blocks}, recorder, paces, {});
   return calls;
 }
 
