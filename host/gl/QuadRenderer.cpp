@@ -1,5 +1,7 @@
 #include "gl/QuadRenderer.h"
+#include "gl/Pause.h"
 
+#include <algorithm>
 #include <tyndall/avsm.h>
 
 namespace host {
@@ -51,9 +53,15 @@ Program& QuadRenderer::beginPicture(const CameraView& camera, const RenderTarget
   return picture_;
 }
 
-void QuadRenderer::drawQuads(std::size_t count) const {
+void QuadRenderer::drawQuads(Program& program, std::size_t count) const {
+  constexpr std::size_t kAtOnce = 4096;
   gl().BindVertexArray(empty_.name());
-  gl().DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count));
+  const std::size_t most = Pause::isWanted() ? kAtOnce : count;
+  for (std::size_t first = 0; first < count; first += most) {
+    program.set("firstQuad", static_cast<int>(first));
+    gl().DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(std::min(most, count - first)));
+    Pause::take();
+  }
 }
 
 } // namespace host

@@ -45,7 +45,8 @@ protected:
   /// The picture's program in use, the targets bound, blending on and the light's texture set.
   Program& beginPicture(const CameraView& camera, const RenderTargets& targets);
 
-  void drawQuads(std::size_t count) const;
+  /// With the program in use.
+  void drawQuads(Program& program, std::size_t count) const;
 
   /// Rows of `across` that hold so many.
   static int rowsOf(std::size_t count, int across) { return (static_cast<int>(count) + across - 1) / across; }

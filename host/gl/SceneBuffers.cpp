@@ -1,6 +1,7 @@
 #include "gl/SceneBuffers.h"
 
 #include "gl/Driver.h"
+#include "gl/Pause.h"
 #include "scene/Error.h"
 
 #include <algorithm>
@@ -159,8 +160,14 @@ GLuint SceneBuffers::textureOf(const Material& material) const {
 }
 
 void SceneBuffers::submit(const Primitive& primitive) {
+  constexpr GLsizei kAtOnce = 3 * 8192; // indices, of points, lines or triangles
   gl().BindVertexArray(primitive.vertexArray.name());
-  gl().DrawElements(primitive.mode, primitive.count, GL_UNSIGNED_INT, nullptr);
+  const GLsizei most = Pause::isWanted() ? kAtOnce : primitive.count;
+  for (GLsizei first = 0; first < primitive.count; first += most) {
+    const auto* const offset = reinterpret_cast<const void*>(first * sizeof(std::uint32_t));
+    gl().DrawElements(primitive.mode, std::min(most, primitive.count - first), GL_UNSIGNED_INT, offset);
+    Pause::take();
+  }
 }
 
 bool SceneBuffers::isBesideView(const Primitive& primitive, const glm::dmat4& clipFromNode) {

@@ -77,8 +77,9 @@ void SmokeRenderer::capture(const CaptureView& view) {
   if (particles_.empty()) {
     return;
   }
-  setView(beginCapture(view), view.clipFromWorld);
-  drawQuads(particles_.size());
+  Program& program = beginCapture(view);
+  setView(program, view.clipFromWorld);
+  drawQuads(program, particles_.size());
 }
 
 void SmokeRenderer::lightUp(const CameraView& camera, const Illumination& illumination) {
@@ -140,7 +141,7 @@ void SmokeRenderer::draw(const CameraView& camera, const Illumination& illuminat
   gl().ActiveTexture(GL_TEXTURE0 + kDepth);
   gl().BindTexture(GL_TEXTURE_2D, depth_.name());
   smoke.set("sceneDepth", static_cast<int>(kDepth));
-  drawQuads(particles_.size());
+  drawQuads(smoke, particles_.size());
 }
 
 } // namespace host

@@ -17,12 +17,13 @@ uniform samplerBuffer particles;
 uniform mat4 clipFromRelative;
 uniform mat4 relativeFromClip;
 uniform vec4 eye; // relative; w = 0 of an orthographic view: the direction to the viewer
+uniform int firstQuad; // of this draw
 flat out vec4 ball;
 flat out vec4 matter;
 flat out int index;
 out vec3 place; // on the fragment's line of sight
 void main() {
-  index = gl_InstanceID;
+  index = firstQuad + gl_InstanceID;
   ball = texelFetch(particles, 2 * index);
   matter = texelFetch(particles, 2 * index + 1);
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;

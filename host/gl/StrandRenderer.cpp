@@ -79,7 +79,7 @@ void StrandRenderer::capture(const CaptureView& view) {
   Program& program = beginCapture(view);
   setSegments(program, texelSizeOf(view.clipFromWorld, view.size));
   program.set("feather", 0.0F);
-  drawQuads(strands_.segments.size());
+  drawQuads(program, strands_.segments.size());
 }
 
 void StrandRenderer::lightUp(const CameraView& camera, const Illumination& illumination) {
@@ -108,7 +108,7 @@ void StrandRenderer::draw(const CameraView& camera, const Illumination& illumina
   setSegments(strand, 2.0 / (targets.height() * perUnit));
   strand.set("feather", 1.0F);
   strand.set("lightsAcross", kLightsAcross);
-  drawQuads(strands_.segments.size());
+  drawQuads(strand, strands_.segments.size());
   gl().DepthMask(GL_FALSE);
 }
 

@@ -10,6 +10,7 @@ uniform samplerBuffer points;
 uniform usamplerBuffer segments;
 uniform mat4 clipFromRelative;
 uniform vec4 eye;        // relative; w = 0 of an orthographic view: the direction to the viewer
+uniform int firstQuad;   // of this draw
 uniform float pixelSize; // world size of a pixel where clip w is 1
 uniform float feather;   // pixels that the ribbon is wider than its strand, for smooth edges
 flat out float opacity;
@@ -23,7 +24,7 @@ out vec3 lit;
 out vec3 relativePosition;
 #endif
 void main() {
-  int index = int(texelFetch(segments, gl_InstanceID)[gl_VertexID >> 1]);
+  int index = int(texelFetch(segments, firstQuad + gl_InstanceID)[gl_VertexID >> 1]);
   vec4 at = texelFetch(points, 3 * index), along = texelFetch(points, 3 * index + 1);
   vec3 toViewer = eye.xyz - eye.w * at.xyz;
   vec3 across = cross(along.xyz, toViewer);

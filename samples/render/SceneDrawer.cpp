@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <gl/Driver.h>
+#include <gl/Pause.h>
 #include <scene/Advice.h>
 #include <scene/MovedObjects.h>
 #include <scene/Projection.h>
@@ -264,9 +265,12 @@ void SceneDrawer::draw(const settings::State& state, const Moment& moment, host:
   makeVolumeShadows(state, notes);
   const std::vector<glm::dmat4> worldFromNode = host::poseAt(scene_, moment.seconds);
   frame.camera = cameraOf(fittedTo(moment), state, worldFromNode, notes);
+  host::Pause::take();
   frame.lights = lightsOf(state, moment, worldFromNode, notes);
   const glm::vec3 sky = skyOf(moment, worldFromNode, frame.lights, notes);
+  host::Pause::take();
   fitViews(state, moment, worldFromNode, frame, notes);
+  host::Pause::take();
   drawMaps(state, moment, worldFromNode, frame);
   jitterCamera(state, moment.jitterPlace, frame.camera);
   const bool isFirst = pose_.empty();

@@ -154,6 +154,7 @@ private:
   bool isMoving(double now) const;
   bool goesOn();
   void drawScene(const settings::State& state, bool isCoarse);
+  bool drawWholeScene(const settings::State& state);
   bool drawWay(Way& way, const tyndall::Settings& settings);
   void prepareTargets(const settings::State& state);
   void drawMoving();

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <gl/Gl.h>
+#include <gl/Pause.h>
 #include <gl/ReadBack.h>
 #include <render/Outputs.h>
 #include <scene/Error.h>
@@ -176,13 +177,35 @@ void Viewer::drawMoving() {
   frameTimes_.add(took, hasCompiled);
 }
 
+// Surfaces and maps are many draws, most of them short: GL is not waited for after each.
+bool Viewer::drawWholeScene(const settings::State& state) {
+  constexpr int kDraws = 12;      // in a row
+  constexpr double kSeldom = 5.0; // milliseconds
+  struct GivenUp {};
+  int draws = 0;
+  auto last = std::chrono::steady_clock::now();
+  const host::Pause pause([&] {
+    if (++draws < kDraws && millisecondsSince(last) < kSeldom) return;
+    if (!goesOn()) throw GivenUp();
+    draws = 0;
+    last = std::chrono::steady_clock::now();
+  });
+  try {
+    const double before = pauses_;
+    drawScene(state, false);
+    sceneMilliseconds_ -= pauses_ - before;
+    return goesOn();
+  } catch (const GivenUp&) {
+    return false;
+  }
+}
+
 // What is changed meanwhile is of the next picture, and gives this one up.
 void Viewer::settle() {
   const Interruptible interruptible(*this);
   const settings::State full = state();
   isDirty_ = false;
-  drawScene(full, false);
-  if (!goesOn() || !drawWay(*first_, full.settings) || !goesOn()) return;
+  if (!drawWholeScene(full) || !drawWay(*first_, full.settings) || !goesOn()) return;
   if (full.compared && (!drawWay(*second_, full.compared->settings) || !goesOn())) return;
   drawn_ = Drawn::Full;
   updateExposure();
