@@ -40,6 +40,8 @@ picture stage
 picture concert --shadow-size 2048
 picture projector
 picture orrery
+picture pendulum --time 0.6
+picture sweep --time 1
 picture smoke
 picture hair
 picture censer

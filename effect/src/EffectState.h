@@ -23,8 +23,9 @@ enum class Draws { All, CheckOnly };
 struct Effect::State {
   explicit State(const Config& config)
       : stateMode(config.state), checksInputs(config.checkInputs), warningsAreErrors(config.warningsAreErrors),
-        tuning(config.tuning), betweenDraws(config.betweenDraws), watch(gl), programs(gl, config.programs), framebuffers(gl), targets(gl, framebuffers),
-        recorder(gl, config.timing), paces(gl), eyes(gl, framebuffers), objectBoxes(gl), inputChecks(gl), blocks(gl) {}
+        tuning(config.tuning), betweenDraws(config.betweenDraws), watch(gl), programs(gl, config.programs),
+        framebuffers(gl), targets(gl, framebuffers), recorder(gl, config.timing), paces(gl), eyes(gl, framebuffers),
+        objectBoxes(gl), inputChecks(gl), blocks(gl) {}
 
   StateMode stateMode;
   bool checksInputs, warningsAreErrors;

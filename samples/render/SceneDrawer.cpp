@@ -84,8 +84,8 @@ void addOnce(host::Notes& notes, const host::Notes& more) {
 
 SceneDrawer::SceneDrawer(host::Scene scene, const host::Context& context, const settings::State& state,
                          host::Notes& notes)
-    : context_(context), scene_(std::move(scene)), boxes_(host::boxesOf(scene_)), renderer_(std::make_unique<host::SceneRenderer>(scene_)),
-      meshBounds_(host::meshBounds(scene_)) {
+    : context_(context), scene_(std::move(scene)), boxes_(host::boxesOf(scene_)),
+      renderer_(std::make_unique<host::SceneRenderer>(scene_)), meshBounds_(host::meshBounds(scene_)) {
   makeVolumeShadows(state, notes);
 }
 
@@ -142,7 +142,8 @@ glm::vec3 SceneDrawer::skyOf(const Moment& moment, const std::vector<glm::dmat4>
   std::vector<double> key = {1};
   for (const tyndall::Light& light : lights)
     if (light.kind == tyndall::LightKind::Directional) append(key, light.colour);
-  const bool isKnown = moment.isCoarse && skyKey_.size() >= key.size() && std::equal(key.begin(), key.end(), skyKey_.begin());
+  const bool isKnown =
+      moment.isCoarse && skyKey_.size() >= key.size() && std::equal(key.begin(), key.end(), skyKey_.begin());
   for (const glm::dmat4& matrix : worldFromNode)
     append(key, matrix);
   if (!isKnown && key != skyKey_) {
@@ -173,7 +174,8 @@ std::vector<double> SceneDrawer::mapsKeyOf(const settings::State& state, const M
                                            const std::vector<tyndall::Light>& lights) const {
   std::vector<double> key = {static_cast<double>(state.shadowSize), static_cast<double>(lights.size())};
   if (hasVolumes())
-    append(key, std::initializer_list<double>{moment.seconds, state.smokeDensity, state.strandWidth, state.strandOpacity});
+    append(key,
+           std::initializer_list<double>{moment.seconds, state.smokeDensity, state.strandWidth, state.strandOpacity});
   for (const glm::dmat4& matrix : worldFromNode)
     append(key, matrix);
   for (const tyndall::Light& light : lights)

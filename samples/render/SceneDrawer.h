@@ -52,8 +52,8 @@ public:
                                   const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes);
 
   const host::Scene& scene() const { return scene_; }
-  const host::Scene& boxes() const { return boxes_; } ///< host::boxesOf(scene())
-  bool hasVolumes() const;                            ///< smoke or strands
+  const host::Scene& boxes() const { return boxes_; }           ///< host::boxesOf(scene())
+  bool hasVolumes() const;                                      ///< smoke or strands
   const std::vector<glm::dmat4>& pose() const { return pose_; } ///< of the last draw(); empty before the first
   const VolumeShadows* volumeShadows() const { return volumeShadows_.get(); } ///< null: there are none
 

@@ -138,8 +138,8 @@ const Table<State>& volumesTable() {
 
 const Table<PathPoint>& pathTable() {
   static const Table<PathPoint> table = [] {
-    Table<PathPoint> made{"PathPoint",
-                          {number("seconds", &PathPoint::seconds, from(0, kMostSeconds), "from the path's begin").in("s")}};
+    Table<PathPoint> made{
+        "PathPoint", {number("seconds", &PathPoint::seconds, from(0, kMostSeconds), "from the path's begin").in("s")}};
     for (const Setting<LookAt>& row : lookAtTable().rows)
       made.rows.push_back(renamed(part("view", &PathPoint::view, row), row.field.c_str()));
     return made;

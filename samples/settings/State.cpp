@@ -32,6 +32,10 @@ std::vector<tyndall::Light> lightsOf(const std::vector<StateLight>& lights, cons
   for (const StateLight& one : lights) {
     if (!one.on) continue;
     shining.push_back(one.light);
+    if (one.light.kind != tyndall::LightKind::Directional) { // which alone has these
+      shining.back().cascadeFade = 0;
+      shining.back().boundary.enabled = false;
+    }
     if (one.follows < 0 || static_cast<std::size_t>(one.follows) >= scene.size()) continue;
     const tyndall::Light& followed = scene[static_cast<std::size_t>(one.follows)];
     shining.back().position = followed.position;

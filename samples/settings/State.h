@@ -63,9 +63,9 @@ struct State {
   bool avsm = true;         ///< whether smoke and strands cast shadows
   int avsmSize = 256;       ///< texels per side
   int avsmNodes = 8;
-  double smokeDensity = 1;  ///< times what the scene says
-  double strandWidth = 1;   ///< the same
-  double strandOpacity = 1; ///< the same
+  double smokeDensity = 1;    ///< times what the scene says
+  double strandWidth = 1;     ///< the same
+  double strandOpacity = 1;   ///< the same
   bool reversedDepth = false; ///< of camera and shadow maps, with clip depth from 0 to 1
   // What the viewer keeps with them, and tyndall-render leaves alone.
   std::optional<Compared> compared;

@@ -136,12 +136,15 @@ def save_and_render(viewer, render, folder):
     content = json.loads(state.read_text())
     assert content["version"] == 1 and "eye" in content["camera"], content
     subprocess.run([render, "--state", state, "--out", folder / "state.png"], check=True)
+    viewer.press("h")  # the handles
+    time.sleep(0.5)
     shown, drawn = viewer.still(), numpy.asarray(Image.open(folder / "state.png")) / 255
+    viewer.press("h")
     area = numpy.s_[60:-60, PANEL + 40:-40]
     drawn = numpy.concatenate([numpy.zeros((drawn.shape[0], PANEL, 3)), drawn], axis=1)
     apart = numpy.abs(shown[area] - drawn[area]).max(axis=2)
-    print(f"window and tyndall-render: {(apart > 1.5 / 255).mean():.4%} of the pixels differ, which handles cover")
-    assert (apart > 1.5 / 255).mean() < 0.002
+    print(f"window and tyndall-render: at most {apart.max() * 255:.0f} of 255 apart")
+    assert apart.max() < 1.5 / 255  # the window's curve is a shader's
 
 
 def open_broken(viewer, folder):
@@ -158,7 +161,7 @@ def open_broken(viewer, folder):
 
 
 def change_sizes(viewer):
-    for width, height in ((320, 200), (1600, 900), (1280, 720)):
+    for width, height in ((320, 200), (3840, 2160), (1280, 720)):
         viewer.resize(width, height)
         viewer.wait("size", lambda: viewer.picture().shape[:2] == (height, width))
         viewer.wait("picture", lambda: viewer.picture()[:-50, int(0.7 * width):].mean() > 0.02)

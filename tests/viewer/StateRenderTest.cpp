@@ -3,6 +3,7 @@
 #include "reference/Metrics.h"
 
 #include <gl/ReadBack.h>
+#include <random>
 #include <render/RenderFrame.h>
 #include <settings/CommandText.h>
 #include <settings/StateFile.h>
@@ -124,4 +125,39 @@ TEST_CASE("so it is by another technique, from another place, in several cascade
   state.cascades = 3;
   state.cascadeFade = 0.2;
   checkOnePicture(state);
+}
+
+TEST_CASE("whatever was done before, the picture at rest is that of the state which is saved then") {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "tyndall-state-after.json";
+  for (const char* scene : {"stage", "nave"}) {
+    CAPTURE(scene);
+    tests::ViewerRig rig(160, 90);
+    rig.load(scene);
+    settings::State fast = rig.viewer.state();
+    fast.profile = tyndall::Profile::Performance;
+    fast.settings = tyndall::settingsOf(fast.profile);
+    rig.viewer.edit("profile", fast);
+    rig.settle();
+    std::mt19937 random(5);
+    for (int i = 0; i < 6; ++i) {
+      CAPTURE(i);
+      const double turn = std::uniform_real_distribution<double>(-0.2, 0.2)(random);
+      rig.viewer.setView(viewer::orbited(rig.viewer.view(), turn, 0.1 * turn));
+      if (i % 2 == 0) rig.step();
+      settings::State state = rig.viewer.state();
+      state.settings.breakThreshold *= 2;
+      state.lights = settings::following(rig.viewer.first().frame().lights);
+      state.lights->back().follows = -1;
+      state.lights->back().light.position[0] += 0.2;
+      rig.viewer.edit("light and threshold", state);
+      if (i % 3 == 0) rig.settle();
+      rig.viewer.undo();
+      rig.settle();
+      settings::saveState(file, rig.viewer.state());
+      const render::Picture fresh = rendered(parsed({"tyndall-render", "--state", file.string()}));
+      CHECK(differenceOf(host::readColour(rig.viewer.first().composite(), 160, 90), fresh.composite) < 1e-6);
+      CHECK(differenceOf(host::readColour(rig.viewer.first().inscatter(), 160, 90), fresh.inscatter) < 1e-6);
+    }
+  }
+  std::filesystem::remove(file);
 }

@@ -83,7 +83,8 @@ void run(const Options& options) {
   std::printf("| a frame while the camera moves: median, 95th percentile | %.0f ms, %.0f ms |\n", quantile(walls, 0.5),
               quantile(walls, 0.95));
   std::printf("| processor time of it, all cores | %.0f ms |\n", quantile(processors, 0.5));
-  std::printf("| of it maps and surfaces, effect | %.0f ms, %.0f ms |\n", quantile(scenes, 0.5), quantile(effects, 0.5));
+  std::printf("| of it maps and surfaces, effect | %.0f ms, %.0f ms |\n", quantile(scenes, 0.5),
+              quantile(effects, 0.5));
   std::printf("| level of quality, 0 the best, %d the fastest | %d |\n", viewer::qualityLevels() - 1,
               viewer.quality.level());
   std::printf("| full quality after | %.1f s |\n", settled);

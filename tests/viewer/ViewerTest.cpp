@@ -168,6 +168,26 @@ TEST_CASE("a camera's path is recorded, kept in the state, and taken again") {
   CHECK_FALSE(rig.viewer.isOnPath());
 }
 
+TEST_CASE("a light may become one of any kind, whatever its fields are") {
+  tests::ViewerRig rig;
+  rig.load("projector");
+  settings::State state = rig.viewer.state();
+  state.lights.emplace(1);
+  tyndall::Light& light = state.lights->front().light;
+  light.position = {0, 2, 0};
+  light.direction = {0.1, -1, 0.2};
+  light.colour = {3, 3, 3};
+  light.cascadeFade = 0.2F;
+  light.boundary.enabled = true;
+  for (const auto kind : {tyndall::LightKind::Directional, tyndall::LightKind::Spot, tyndall::LightKind::Point}) {
+    CAPTURE(static_cast<int>(kind));
+    light.kind = kind;
+    rig.viewer.edit("kind", state);
+    rig.settle();
+    CHECK(rig.error().empty());
+  }
+}
+
 TEST_CASE("smoke's density and the width of strands are a person's to set") {
   for (const char* name : {"censer", "hair"}) {
     tests::ViewerRig rig;

@@ -524,10 +524,10 @@ struct Config {
   /// while one integrates.
   bool checkInputs = false;
   bool warningsAreErrors = false; ///< InvalidFrame, and nothing is drawn, for what would be a warning: the first
-  /// For tools that must answer while a frame takes long: called by render() between draws, and between the bands of one
-  /// (Tuning::bandMilliseconds). It may wait for GL, and make another context current for a while; of this one it leaves
-  /// all state as it is. It calls nothing of the effect, and does not throw. False: no more is drawn, and render()
-  /// returns Abandoned; what was drawn into colour and outputs stays. Timer queries of passes count its time.
+  /// For tools that must answer while a frame takes long: called by render() between draws, and between the bands of
+  /// one (Tuning::bandMilliseconds). It may wait for GL, and make another context current for a while; of this one it
+  /// leaves all state as it is. It calls nothing of the effect, and does not throw. False: no more is drawn, and
+  /// render() returns Abandoned; what was drawn into colour and outputs stays. Timer queries of passes count its time.
   std::function<bool()> betweenDraws = nullptr;
 };
 
@@ -569,8 +569,8 @@ public:
   PrepareStatus prepare(const Frame& frame);
 
   /// Adds the shafts to the frame. Unless the status is Ok, or Abandoned, nothing was drawn, and colour and outputs are
-  /// untouched, whatever failed. Does not wait for the GPU. Frames like those before make no GL object. GL state on return is as
-  /// Config::state says. GL errors of the engine's that it has not asked for are pending still.
+  /// untouched, whatever failed. Does not wait for the GPU. Frames like those before make no GL object. GL state on
+  /// return is as Config::state says. GL errors of the engine's that it has not asked for are pending still.
   Status render(const Frame& frame);
 
   /// About the last render(); waits for the GPU.

@@ -26,8 +26,9 @@ void addPoint(std::vector<settings::PathPoint>& path, double seconds, const sett
 }
 
 settings::LookAt viewAt(const std::vector<settings::PathPoint>& path, double seconds) {
-  const auto after = std::upper_bound(path.begin(), path.end(), seconds,
-                                      [](double time, const settings::PathPoint& point) { return time < point.seconds; });
+  const auto after =
+      std::upper_bound(path.begin(), path.end(), seconds,
+                       [](double time, const settings::PathPoint& point) { return time < point.seconds; });
   if (after == path.begin()) return path.front().view;
   if (after == path.end()) return path.back().view;
   const settings::PathPoint &a = *(after - 1), &b = *after;

@@ -2,6 +2,7 @@
 
 #include <gl/Gl.h>
 #include <gl/RenderState.h>
+#include <utility>
 
 namespace viewer {
 
@@ -65,12 +66,14 @@ void main() {
 
 Display::Display()
     : program_("display", kVertex, kFragment), framebuffer_(host::makeFramebuffer()), empty_(host::makeVertexArray()),
-      smooth_(host::makeSampler()) {
+      smooth_(host::makeSampler()), exact_(host::makeSampler()) {
   const GladGLContext& gl = host::gl();
-  gl.SamplerParameteri(smooth_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  gl.SamplerParameteri(smooth_.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  gl.SamplerParameteri(smooth_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  gl.SamplerParameteri(smooth_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  for (const auto& [sampler, filter] : {std::pair{smooth_.name(), GL_LINEAR}, std::pair{exact_.name(), GL_NEAREST}}) {
+    gl.SamplerParameteri(sampler, GL_TEXTURE_MIN_FILTER, filter);
+    gl.SamplerParameteri(sampler, GL_TEXTURE_MAG_FILTER, filter);
+    gl.SamplerParameteri(sampler, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl.SamplerParameteri(sampler, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  }
 }
 
 void Display::draw(const Shown& first, const Shown& second, const DisplayOptions& options, int width, int height) {
@@ -86,12 +89,14 @@ void Display::draw(const Shown& first, const Shown& second, const DisplayOptions
   gl.Viewport(0, 0, width, height);
   gl.Disable(GL_DEPTH_TEST);
   program_.use();
+  const bool isOfSize =
+      first.width == width && first.height == height && second.width == width && second.height == height;
   const GLuint textures[] = {first.composite, second.composite, first.inscatter, second.inscatter, options.exact};
   const char* const names[] = {"first", "second", "firstLight", "secondLight", "exact"};
   for (int unit = 0; unit < 5; ++unit) {
     gl.ActiveTexture(GL_TEXTURE0 + unit);
     gl.BindTexture(GL_TEXTURE_2D, textures[unit]);
-    gl.BindSampler(unit, smooth_.name());
+    gl.BindSampler(unit, isOfSize ? exact_.name() : smooth_.name()); // filters round weights
     program_.set(names[unit], unit);
   }
   program_.set("exposure", options.exposure);

@@ -10,6 +10,7 @@ namespace viewer {
 struct Shown {
   GLuint composite = 0;
   GLuint inscatter = 0;
+  int width = 0, height = 0;
 };
 
 struct DisplayOptions {
@@ -39,7 +40,7 @@ private:
   host::GlTexture texture_;
   host::GlFramebuffer framebuffer_;
   host::GlVertexArray empty_;
-  host::GlSampler smooth_;
+  host::GlSampler smooth_, exact_; ///< of pictures of another size, and of the same
   int width_ = 0, height_ = 0;
 };
 

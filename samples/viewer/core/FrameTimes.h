@@ -16,7 +16,7 @@ public:
     times_.push_back(static_cast<float>(milliseconds));
     compiled_.push_back(hasCompiled);
   }
-  const std::vector<float>& times() const { return times_; } ///< oldest first
+  const std::vector<float>& times() const { return times_; }     ///< oldest first
   bool hasCompiled(std::size_t i) const { return compiled_[i]; } ///< a driver compiled programs meanwhile
   void clear() {
     times_.clear();

@@ -1,11 +1,11 @@
 // The viewer without a window: a state that is edited, and the pictures of it.
 #pragma once
 
+#include "CameraPath.h"
 #include "Display.h"
 #include "ErrorMeter.h"
 #include "FrameTimes.h"
 #include "History.h"
-#include "CameraPath.h"
 #include "Navigation.h"
 #include "Playback.h"
 #include "Quality.h"
@@ -114,7 +114,7 @@ public:
   const ErrorMeter& meter() const { return meter_; }
   const Way& first() const { return *first_; }
   const Way* second() const { return state().compared ? second_.get() : nullptr; } ///< none: nothing is compared
-  const host::RenderTargets& surfaces() const { return *surfaces_; } ///< of a scene that was drawn
+  const host::RenderTargets& surfaces() const { return *surfaces_; }               ///< of a scene that was drawn
   const FrameTimes& frameTimes() const { return frameTimes_; }
   double sceneMilliseconds() const { return sceneMilliseconds_; } ///< of maps and surfaces, in the last frame
   double exposureStops() const;                                   ///< that is shown
@@ -186,15 +186,15 @@ private:
   double duration_ = 0;
   double now_ = 0, lastChange_ = -1;
   Drawn drawn_ = Drawn::Nothing;
-  bool isDirty_ = false;   ///< changed since it was drawn
-  bool isShown_ = true;    ///< as it was drawn
+  bool isDirty_ = false; ///< changed since it was drawn
+  bool isShown_ = true;  ///< as it was drawn
   bool isRecording_ = false;
   std::vector<settings::PathPoint> recorded_; ///< so far
   double pathSeconds_ = -1; ///< from the begin of the path that is taken or recorded; negative: none is
   bool isInterruptible_ = false, isAbandoned_ = false;
   std::chrono::steady_clock::time_point lastPause_; ///< the end of the last call of whileDrawing
   double pauses_ = 0;                               ///< milliseconds in them, of this picture
-  bool hasFailed_ = false; ///< until something is changed
+  bool hasFailed_ = false;                          ///< until something is changed
   std::optional<float> exposure_;
   FrameTimes frameTimes_;
   double sceneMilliseconds_ = 0;

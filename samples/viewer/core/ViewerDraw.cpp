@@ -40,7 +40,8 @@ bool isSame(const tyndall::Tuning& a, const tyndall::Tuning& b) {
 } // namespace
 
 bool Viewer::isMoving(double now) const {
-  return isDirty_ || (playback.isPlaying && duration_ > 0) || (isOnPath() && !isRecording_) || now - lastChange_ < kRest;
+  return isDirty_ || (playback.isPlaying && duration_ > 0) || (isOnPath() && !isRecording_) ||
+         now - lastChange_ < kRest;
 }
 
 bool Viewer::isSettled() const { return drawn_ == Drawn::Full && !isDirty_; }
@@ -52,7 +53,8 @@ Viewer::Interruptible::Interruptible(Viewer& viewer) : viewer_(viewer) {
   viewer_.lastPause_ = std::chrono::steady_clock::now();
 }
 
-// Asked between draws. GL is waited for: what is not done yet cannot be given up, and takes a window's time all the same.
+// Asked between draws. GL is waited for: what is not done yet cannot be given up, and takes a window's time all the
+// same.
 bool Viewer::goesOn() {
   constexpr double kPause = 40; // milliseconds between two
   if (!isInterruptible_) return true;
@@ -256,8 +258,10 @@ void Viewer::drawDisplay() {
   }
   const bool isCompared = state().compared.has_value();
   if (!isCompared) options.wipe = 1;
-  const Shown first{first_->composite(), first_->inscatter()};
-  const Shown second = isCompared && second_->width() > 0 ? Shown{second_->composite(), second_->inscatter()} : first;
+  const auto shownOf = [](const Way& way) {
+    return Shown{way.composite(), way.inscatter(), way.width(), way.height()};
+  };
+  const Shown first = shownOf(*first_), second = isCompared && second_->width() > 0 ? shownOf(*second_) : first;
   if (isCompared && showsSecond_) options.wipe = 0;
   display_.draw(first, second, options, state().width, state().height);
 }

@@ -36,8 +36,8 @@ public:
   const tyndall::Statistics& statistics() const { return statistics_; }
   double milliseconds() const { return milliseconds_; }
   void leaveOut(double milliseconds) { milliseconds_ -= milliseconds; } ///< that were not spent on it
-  bool hasCompiled() const { return hasCompiled_; } ///< programs, in the last frame
-  const tyndall::Frame& frame() const { return frame_; } ///< as it was drawn
+  bool hasCompiled() const { return hasCompiled_; }                     ///< programs, in the last frame
+  const tyndall::Frame& frame() const { return frame_; }                ///< as it was drawn
 
 private:
   void prepare(const host::RenderTargets& surfaces, tyndall::Frame frame, const tyndall::Settings& settings);
@@ -51,7 +51,7 @@ private:
   tyndall::Frame frame_;
   tyndall::Statistics statistics_;
   double milliseconds_ = 0, renderMilliseconds_ = 0; ///< of all steps, of the last one
-  int programs_ = 0; ///< compiled so far
+  int programs_ = 0;                                 ///< compiled so far
   bool hasCompiled_ = false;
   Bands bands_;
   Pace pace_;

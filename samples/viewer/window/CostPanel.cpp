@@ -15,25 +15,51 @@ ImU32 colourOf(std::size_t index) {
   return ImGui::ColorConvertFloat4ToU32(ImVec4(r, g, b, 1));
 }
 
+struct Pass {
+  std::string name;
+  double milliseconds = 0;
+  std::string skipped; ///< why; empty if it ran
+};
+
+/// By their names, as they come; of all lights together, if so.
+std::vector<Pass> passesOf(const tyndall::Statistics& statistics, bool areTogether) {
+  std::vector<Pass> passes;
+  for (const tyndall::PassStatistics& pass : statistics.passes) {
+    std::string name = pass.name;
+    const std::size_t digit = name.rfind("light ", 0) == 0 ? name.find(' ', 6) : std::string::npos;
+    if (areTogether && digit != std::string::npos) name = name.substr(digit + 1);
+    const auto same = std::find_if(passes.begin(), passes.end(), [&](const Pass& other) { return other.name == name; });
+    if (same == passes.end() || !areTogether) {
+      passes.push_back({name, pass.milliseconds, pass.skipped});
+      continue;
+    }
+    same->milliseconds += pass.milliseconds;
+    if (pass.skipped.empty()) same->skipped.clear();
+  }
+  return passes;
+}
+
 /// One bar, as wide as the panel, of all passes; then a line each.
-void drawPasses(const tyndall::Statistics& statistics) {
+void drawPasses(const tyndall::Statistics& statistics, bool& isEachLight) {
+  const std::vector<Pass> passes = passesOf(statistics, !isEachLight);
   double sum = 0;
-  for (const tyndall::PassStatistics& pass : statistics.passes)
+  for (const Pass& pass : passes)
     sum += pass.milliseconds;
   const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetFrameHeight();
   ImVec2 corner = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  for (std::size_t i = 0; i < statistics.passes.size(); ++i) {
-    const auto part = static_cast<float>(sum > 0 ? width * statistics.passes[i].milliseconds / sum : 0);
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    const auto part = static_cast<float>(sum > 0 ? width * passes[i].milliseconds / sum : 0);
     list.AddRectFilled(corner, ImVec2(corner.x + part, corner.y + height), colourOf(i));
     corner.x += part;
   }
   ImGui::Dummy(ImVec2(width, height));
-  for (std::size_t i = 0; i < statistics.passes.size(); ++i) {
-    const tyndall::PassStatistics& pass = statistics.passes[i];
+  ImGui::Checkbox("passes of each light", &isEachLight);
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    const Pass& pass = passes[i];
     if (!pass.skipped.empty()) {
-      ImGui::TextDisabled("   %s", pass.name.c_str());
-      tooltip("skipped: " + pass.skipped);
+      ImGui::TextDisabled("  %s: skipped", pass.name.c_str());
+      tooltip(pass.name + " is skipped: " + pass.skipped);
       continue;
     }
     ImGui::PushStyleColor(ImGuiCol_Text, colourOf(i));
@@ -96,7 +122,7 @@ void drawCostPanel(Session& session) {
   ImGui::Text("%dx%d, %s", viewer.first().width(), viewer.first().height(),
               viewer.isSettled() ? "at full quality" : "adapted");
   ImGui::Text("maps and surfaces %.1f ms, effect %.1f ms", viewer.sceneMilliseconds(), viewer.first().milliseconds());
-  drawPasses(statistics);
+  drawPasses(statistics, session.isEachLight);
   ImGui::Text("%.1f MiB, %llu samples marched, %llu fix-up pixels", static_cast<double>(statistics.bytes) / (1 << 20),
               static_cast<unsigned long long>(statistics.marchedSamples),
               static_cast<unsigned long long>(statistics.fixupPixels));

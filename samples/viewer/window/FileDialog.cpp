@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <imgui.h>
+#include <utility>
 
 namespace viewer {
 
@@ -69,7 +70,7 @@ bool FileDialog::drawList() {
 std::optional<std::filesystem::path> FileDialog::draw() {
   if (!isOpen_) return std::nullopt;
   if (isNew_) ImGui::OpenPopup(title_.c_str());
-  isNew_ = false;
+  const bool isFirst = std::exchange(isNew_, false);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowSize(ImVec2(std::min(560.0F, 0.95F * display.x), std::min(420.0F, 0.95F * display.y)),
                            ImGuiCond_Appearing);
@@ -81,7 +82,10 @@ std::optional<std::filesystem::path> FileDialog::draw() {
   std::array<char, 512> text{};
   name_.copy(text.data(), text.size() - 1);
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::InputText("##name", text.data(), text.size(), ImGuiInputTextFlags_EnterReturnsTrue)) isDone = true;
+  if (isFirst || ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere(); // a name may be typed at once
+  if (ImGui::InputText("##name", text.data(), text.size(),
+                       ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll))
+    isDone = true;
   name_ = text.data();
   ImGui::BeginDisabled(name_.empty());
   if (ImGui::Button(isSaving_ ? "Save" : "Open")) isDone = true;

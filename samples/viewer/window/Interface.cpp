@@ -78,10 +78,9 @@ void Window::drawStatus() {
     text = "choose a scene, or drop a glTF file here; F1: help";
   if (viewer_->scene() && viewer_->first().width() > 0) {
     text += text.empty() ? "" : "   |   ";
-    text += viewer_->isDrawing()
-                ? std::string("drawing at full quality ...")
-                : fmt::format("{} {:.0f} ms", viewer_->isSettled() ? "full quality" : "adapted",
-                              viewer_->sceneMilliseconds() + viewer_->first().milliseconds());
+    text += viewer_->isDrawing() ? std::string("drawing at full quality ...")
+                                 : fmt::format("{} {:.0f} ms", viewer_->isSettled() ? "full quality" : "adapted",
+                                               viewer_->sceneMilliseconds() + viewer_->first().milliseconds());
     if (viewer_->isMeasured())
       text += fmt::format("   |   rRMSE {:.2g} %", 100 * viewer_->meter().errors()[0].rRmse);
     else if (viewer_->meter().isRunning())
@@ -130,6 +129,7 @@ void Window::key(int key, int mods) {
   if (key == GLFW_KEY_F) viewer_->frameAll();
   if (key == GLFW_KEY_P) viewer_->playback.isPlaying = !viewer_->playback.isPlaying && viewer_->duration() > 0;
   if (key == GLFW_KEY_B) session_->blinks = viewer_->second() && !session_->blinks;
+  if (key == GLFW_KEY_H) session_->hasHandles = !session_->hasHandles;
   if (key == GLFW_KEY_M) session_->hasMagnifier = !session_->hasMagnifier;
   if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) viewer_->useSceneCamera(key - GLFW_KEY_1);
   if ((key == GLFW_KEY_LEFT || key == GLFW_KEY_RIGHT) && viewer_->duration() > 0)

@@ -72,7 +72,7 @@ std::vector<settings::StateLight> editableLights(const Viewer& viewer) {
   const std::vector<glm::dmat4> pose = host::poseAt(*viewer.scene(), viewer.state().seconds);
   std::vector<settings::StateLight> lights = settings::following(host::makeLights(*viewer.scene(), pose, ofNoConcern));
   for (settings::StateLight& light : lights)
-    light.light.cascadeFade = viewer.state().cascadeFade;
+    if (light.light.kind == tyndall::LightKind::Directional) light.light.cascadeFade = viewer.state().cascadeFade;
   return lights;
 }
 
@@ -101,7 +101,7 @@ void drawLightPanel(Session& session) {
   }
   ImGui::EndDisabled();
   ImGui::SameLine();
-  ImGui::TextDisabled("drag the circles in the picture");
+  ImGui::TextDisabled("drag the handles in the picture");
   if (edited.empty() && !lights.empty()) {
     settings::StateLight& light = lights[static_cast<std::size_t>(session.light)];
     std::vector<std::string> hidden = hiddenFields(light);

@@ -8,6 +8,13 @@
 
 namespace viewer {
 
+/// What of a light is dragged in the picture: its place, or a sun's direction; where a spot shines to; the outer angle
+/// of its cone; how far it reaches.
+struct Grip {
+  enum class What { Place, Target, Cone, Range } what = What::Place;
+  int light = 0;
+};
+
 /// What the panels share with the window.
 struct Session {
   explicit Session(Viewer& what) : viewer(what) {}
@@ -16,12 +23,15 @@ struct Session {
   FileDialog dialog;
   enum class Asked { Scene, LoadState, SaveState, SavePicture } asked = Asked::Scene; ///< of the dialog
   Thumbnails thumbnails;
-  int light = 0;        ///< that is edited, and drawn as chosen
+  int light = 0; ///< that is edited, and drawn with all its handles
+  std::optional<Grip> dragged;
   double flySpeed = 1;  ///< diagonals of the scene in ten seconds
   bool hasHelp = false; ///< whether help is shown
   bool hasMagnifier = false;
+  bool hasHandles = true; ///< of lights, in the picture
   bool blinks = false;
-  Message message; ///< the last one
+  bool isEachLight = false; ///< whether passes of lights are listed apart
+  Message message;          ///< the last one
   std::optional<std::filesystem::path> pictureToSave;
   Viewer::PixelValues magnified;
 };

@@ -27,7 +27,7 @@ constexpr Key kKeys[] = {
     {"W A S D Q E", "fly; Q down, E up"},
     {"F, 1 to 9", "frame all, the scene's cameras"},
     {"P, left, right", "play or pause, a frame back or on"},
-    {"circles", "lights: drag them"},
+    {"circles", "lights: drag them; squares: the chosen one's direction, cone and range; H hides them"},
     {"Ctrl+Z, Ctrl+Y", "undo, redo"},
     {"Ctrl+O, Ctrl+S", "open a scene, save the state"},
     {"B, M", "blink between A and B, magnifier"},

@@ -34,7 +34,8 @@ void drawSamples(Session& session) {
 void drawPath(Viewer& viewer) {
   const std::vector<settings::PathPoint>& path = viewer.state().path;
   ImGui::BeginDisabled(!viewer.scene());
-  if (ImGui::SmallButton(viewer.isRecording() ? "end recording" : "record a path")) viewer.record(!viewer.isRecording());
+  if (ImGui::SmallButton(viewer.isRecording() ? "end recording" : "record a path"))
+    viewer.record(!viewer.isRecording());
   tooltip("the camera's moves, to be played again; a saved state has them");
   ImGui::EndDisabled();
   ImGui::SameLine();

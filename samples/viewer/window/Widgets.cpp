@@ -83,7 +83,8 @@ bool editBesides(const Row& row, Value& value, const Value& start) {
   const bool mayBeUnset = row.rule.mayBeUnset;
   if (!mayBeUnset && row.rule.also.empty()) return false;
   const Value besides = mayBeUnset ? Value::none() : Value(row.rule.also.front());
-  const std::string name = mayBeUnset ? "auto" : settings::textOf(row.rule.also.front(), row.isFloat);
+  const bool isAuto = mayBeUnset || row.rule.also.front() < 0;
+  const std::string name = isAuto ? "auto" : settings::textOf(row.rule.also.front(), row.isFloat);
   bool isBesides = value == besides;
   const bool isChanged = ImGui::Checkbox(name.c_str(), &isBesides);
   if (!isChanged) return false;

@@ -54,8 +54,8 @@ Windows makeWindows(const Layout& layout) {
 }
 
 std::unique_ptr<host::Context> contextOf(GLFWwindow* window) {
-  return host::Context::adopt(
-      load, [window](bool isCurrent) { glfwMakeContextCurrent(isCurrent ? window : nullptr); }, {false});
+  return host::Context::adopt(load, [window](bool isCurrent) { glfwMakeContextCurrent(isCurrent ? window : nullptr); },
+                              {false});
 }
 
 tyndall::ProgramStore keptPrograms() {
@@ -120,8 +120,12 @@ void Window::setScale(float scale) {
 // Dear ImGui calls those that were set before it came.
 void Window::setCallbacks() {
   glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int mods) {
-    if (action != GLFW_RELEASE) windowOf(w).key(key, mods);
-    windowOf(w).wake();
+    Window& window = windowOf(w);
+    // Dear ImGui asks once a frame which keys are down: one that was let go before is seen to be down first.
+    if (action == GLFW_RELEASE && window.isKeyUnseen_) window.drawInterface();
+    window.isKeyUnseen_ = action != GLFW_RELEASE;
+    if (action != GLFW_RELEASE) window.key(key, mods);
+    window.wake();
   });
   glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double steps) {
     windowOf(w).scroll(steps);
@@ -224,6 +228,7 @@ void Window::drawFrame(int unknownPress) {
   ImGui_ImplGlfw_NewFrame();
   if (unknownPress >= 0 && unknownPress < ImGuiMouseButton_COUNT) ImGui::GetIO().MouseDown[unknownPress] = false;
   ImGui::NewFrame();
+  isKeyUnseen_ = false;
   drawPicture();
   if (showsPanel_) drawPanel();
   drawStatus();

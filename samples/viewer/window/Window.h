@@ -53,8 +53,9 @@ private:
   float scale_ = 1;      ///< of the interface, by the display
   float panelWidth_ = 0; ///< in window units, 0 while hidden
   bool showsPanel_ = true;
-  bool isFlying_ = false;  ///< a key is down
-  bool isHandled_ = false; ///< the mouse drags a handle, not the view
+  bool isKeyUnseen_ = false; ///< one was pressed since the last frame
+  bool isFlying_ = false;    ///< a key is down
+  bool isHandled_ = false;   ///< the mouse drags a handle, not the view
   double lastFlight_ = 0;
   int framesToDraw_ = 3; ///< Dear ImGui takes some to come to rest
   double lastDrawn_ = 0;
