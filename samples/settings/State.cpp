@@ -1,4 +1,5 @@
 #include "State.h"
+#include "Tables.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -25,6 +26,47 @@ std::string contradictionIn(const State& state) {
                          light.outerConeAngle);
   }
   return {};
+}
+
+namespace {
+
+/// The first field that breaks its rule.
+template <typename Owner>
+std::string breachIn(const std::string& where, const Table<Owner>& table, const Owner& owner) {
+  for (const Setting<Owner>& row : table.rows)
+    if (const std::string breach = breachOf(row, row.get(owner)); !breach.empty())
+      return where + "." + row.field + ": " + textOf(row, row.get(owner)) + " " + breach;
+  return {};
+}
+
+std::string breachIn(const tyndall::Medium& medium) {
+  std::string breach = breachIn("medium", mediumTable(), medium);
+  for (std::size_t i = 0; i < medium.constituents.size() && breach.empty(); ++i)
+    breach = breachIn(fmt::format("medium.constituents[{}]", i), constituentTable(), medium.constituents[i]);
+  return breach;
+}
+
+std::string breachIn(const State& state) {
+  std::string breach;
+  visitTables(state, [&](const char* name, const auto& part, const auto& table) {
+    if (breach.empty()) breach = breachIn(name, table, part);
+  });
+  if (breach.empty() && state.lookAt) breach = breachIn("camera", lookAtTable(), *state.lookAt);
+  if (breach.empty() && state.medium) breach = breachIn(*state.medium);
+  for (std::size_t i = 0; state.lights && i < state.lights->size() && breach.empty(); ++i)
+    breach = breachIn(fmt::format("lights[{}]", i), lightTable(), (*state.lights)[i]);
+  if (breach.empty() && state.compared)
+    breach = breachIn("compared.settings", settingsTable(), state.compared->settings);
+  for (std::size_t i = 0; i < state.path.size() && breach.empty(); ++i)
+    breach = breachIn(fmt::format("path[{}]", i), pathTable(), state.path[i]);
+  return breach;
+}
+
+} // namespace
+
+std::string problemIn(const State& state) {
+  const std::string breach = breachIn(state);
+  return breach.empty() ? contradictionIn(state) : breach;
 }
 
 std::vector<tyndall::Light> lightsOf(const std::vector<StateLight>& lights, const std::vector<tyndall::Light>& scene) {

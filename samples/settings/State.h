@@ -81,6 +81,9 @@ inline int renderedHeight(const State& state) { return state.height * state.supe
 /// Why the picture cannot be drawn though each field keeps its rule: "FIELD: why"; empty if it can.
 std::string contradictionIn(const State& state);
 
+/// The same of fields that break their rules, too.
+std::string problemIn(const State& state);
+
 /// The lights of a frame: those of the state, of which some follow the scene's.
 std::vector<tyndall::Light> lightsOf(const std::vector<StateLight>& lights, const std::vector<tyndall::Light>& scene);
 

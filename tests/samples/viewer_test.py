@@ -160,11 +160,37 @@ def open_broken(viewer, folder):
     assert difference(before, viewer.still()) < 0.001, "the old scene does not stay"
 
 
+def compare(viewer):
+    """A wipe between two ways, and a pixel looked at closely."""
+    def is_edge(picture, x):
+        return numpy.abs(numpy.median(picture[200:500, x - 1:x + 1], axis=(0, 1)) - numpy.array([255, 235, 160]) / 255).max() < 0.05
+
+    viewer.click(TABS["Compare"], 18)
+    one = viewer.still()
+    viewer.click(17, 41)
+    viewer.wait("wipe", lambda: difference(one, viewer.picture()) > 0.0005)
+    middle = PANEL + 450
+    assert is_edge(viewer.still(), middle), "no edge of the wipe in the middle"
+    viewer.drag((middle, 600), (middle - 250, 600))
+    wiped = viewer.still()
+    assert is_edge(wiped, middle - 250), "the wipe is not dragged"
+    viewer.press("m")
+    viewer.move(middle, 400)
+    viewer.wait("magnifier", lambda: difference(wiped, viewer.picture()) > 0.005)
+    time.sleep(0.5)
+    viewer.look("compare")
+    viewer.press("m")
+    viewer.press("ctrl+z")
+    viewer.wait("end of the wipe", lambda: difference(one, viewer.picture()) < 0.0005)
+
+
 def change_sizes(viewer):
     for width, height in ((320, 200), (3840, 2160), (1280, 720)):
         viewer.resize(width, height)
         viewer.wait("size", lambda: viewer.picture().shape[:2] == (height, width))
-        viewer.wait("picture", lambda: viewer.picture()[:-50, int(0.7 * width):].mean() > 0.02)
+        left = min(PANEL, round(0.6 * width)) + 4
+        viewer.wait("picture", lambda: viewer.picture()[10:-60, left:].mean() > 0.02)
+        time.sleep(0.5)
         viewer.look(f"size-{width}x{height}")
 
 
@@ -187,17 +213,20 @@ def main():
         start = folder / "start.json"
         start.write_text(json.dumps({"version": 1, "scene": f"{Path(scenes).resolve()}/stage.glb", "profile": "performance",
                                      "maps": {"shadowSize": 512}}))
-        with Viewer([program, start], pictures) as viewer:
+        with Viewer([program, "--debug", start], pictures) as viewer:
             viewer.wait("picture", lambda: viewer.picture()[:, PANEL:].mean() > 0.05)
             look_at_panels(viewer)
             drag_view_and_light(viewer)
             save_and_render(viewer, render, folder)
+            compare(viewer)
             open_broken(viewer, folder)
             change_sizes(viewer)
             rest(viewer)
-        with Viewer([program, f"{scenes}/forest.glb"], pictures) as viewer:  # closed while it loads
-            viewer.process.terminate()
-            assert viewer.exit_status() != 0
+            viewer.press("ctrl+q")
+            assert viewer.exit_status() == 0
+        with Viewer([program, "--debug", f"{scenes}/forest.glb"], pictures) as viewer:  # closed while it loads
+            viewer.press("ctrl+q")
+            assert viewer.exit_status() == 0
     environment = {key: value for key, value in os.environ.items() if key != "DISPLAY"}
     alone = subprocess.run([program], env=environment, capture_output=True, text=True, check=False)
     print(alone.stderr.strip())

@@ -146,8 +146,7 @@ void Viewer::takeScene(SceneLoader::Result result) {
 }
 
 void Viewer::edit(const std::string& what, const settings::State& state) {
-  const std::string contradiction = contradictionIn(state);
-  if (!contradiction.empty()) return say(contradiction, true);
+  if (const std::string problem = problemIn(state); !problem.empty()) return say(problem, true);
   history_.edit(what, state);
   changed();
 }
@@ -195,8 +194,7 @@ void Viewer::setView(const LookAt& view) {
   settings::State state = history_.state();
   state.lookAt = view;
   state.camera.reset();
-  const std::string contradiction = contradictionIn(state);
-  if (!contradiction.empty() || !std::isfinite(glm::length(view.eye) + glm::length(view.target))) return;
+  if (!problemIn(state).empty()) return; // it has come too far
   history_.move(state);
   changed();
 }

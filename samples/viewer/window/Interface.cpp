@@ -108,6 +108,7 @@ void Window::scroll(double steps) {
 }
 
 void Window::control(int key) {
+  if (key == GLFW_KEY_Q) glfwSetWindowShouldClose(window_, GLFW_TRUE);
   if (key == GLFW_KEY_Z) viewer_->undo();
   if (key == GLFW_KEY_Y) viewer_->redo();
   if (key == GLFW_KEY_O) {

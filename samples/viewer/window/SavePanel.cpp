@@ -30,6 +30,7 @@ constexpr Key kKeys[] = {
     {"circles", "lights: drag them; squares: the chosen one's direction, cone and range; H hides them"},
     {"Ctrl+Z, Ctrl+Y", "undo, redo"},
     {"Ctrl+O, Ctrl+S", "open a scene, save the state"},
+    {"Ctrl+Q", "leave"},
     {"B, M", "blink between A and B, magnifier"},
     {"Tab", "hide or show the panel"},
     {"Ctrl+click", "on a slider: type the number"},

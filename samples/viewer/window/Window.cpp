@@ -8,6 +8,7 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <cmath>
+#include <cstdio>
 #include <gl/Gl.h>
 #include <scene/Error.h>
 #include <scene/FileIo.h>
@@ -33,7 +34,7 @@ struct Windows {
   GLFWwindow *seen = nullptr, *workshop = nullptr;
 };
 
-Windows makeWindows(const Layout& layout) {
+Windows makeWindows(const Layout& layout, bool isDebug) {
   if (!glfwInit()) throw host::Error("no window: GLFW cannot start: " + lastError());
   for (const auto& [major, minor] : {std::pair{4, 5}, std::pair{4, 3}, std::pair{4, 1}, std::pair{3, 3}}) {
     glfwDefaultWindowHints();
@@ -41,6 +42,7 @@ Windows makeWindows(const Layout& layout) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, minor);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, isDebug ? GLFW_TRUE : GLFW_FALSE);
     GLFWwindow* const seen = glfwCreateWindow(layout.width, layout.height, "Tyndall viewer", nullptr, nullptr);
     if (!seen) continue;
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
@@ -53,9 +55,9 @@ Windows makeWindows(const Layout& layout) {
   throw host::Error("no window with OpenGL 3.3: " + reason);
 }
 
-std::unique_ptr<host::Context> contextOf(GLFWwindow* window) {
+std::unique_ptr<host::Context> contextOf(GLFWwindow* window, bool isDebug) {
   return host::Context::adopt(load, [window](bool isCurrent) { glfwMakeContextCurrent(isCurrent ? window : nullptr); },
-                              {false});
+                              {isDebug});
 }
 
 tyndall::ProgramStore keptPrograms() {
@@ -67,16 +69,15 @@ Window& windowOf(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindo
 
 } // namespace
 
-Window::Window() {
+Window::Window(bool reports) : reports_(reports) {
   const Layout layout = loadLayout();
-  const Windows windows = makeWindows(layout);
+  const Windows windows = makeWindows(layout, reports);
   window_ = windows.seen;
   workshop_ = windows.workshop;
   showsPanel_ = layout.showsPanel;
   glfwSetWindowUserPointer(window_, this);
-  screen_ = contextOf(window_);
+  screen_ = contextOf(window_, reports);
   glfwSwapInterval(1);
-  setCallbacks();
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr; // the layout is ours
   float scaleX = 1, scaleY = 1;
@@ -84,7 +85,8 @@ Window::Window() {
   setScale(std::max(scaleX, scaleY));
   ImGui_ImplGlfw_InitForOpenGL(window_, true);
   ImGui_ImplOpenGL3_Init("#version 330 core");
-  drawing_ = contextOf(workshop_);
+  setCallbacks();
+  drawing_ = contextOf(workshop_, reports);
   viewer_ = std::make_unique<Viewer>(*drawing_, keptPrograms());
   viewer_->whileDrawing = [this] { turn(); };
   session_ = std::make_unique<Session>(*viewer_);
@@ -117,33 +119,47 @@ void Window::setScale(float scale) {
   ImGui::GetStyle().ScaleAllSizes(scale);
 }
 
-// Dear ImGui calls those that were set before it came.
+// Before version 1.87 Dear ImGui asks once a frame where the mouse is by then and what is pressed. So it is told where the
+// events are; what is under a press is drawn before it knows of the press, and what comes of it before the mouse goes on,
+// or the key is let go.
 void Window::setCallbacks() {
-  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int mods) {
-    Window& window = windowOf(w);
-    // Dear ImGui asks once a frame which keys are down: one that was let go before is seen to be down first.
-    if (action == GLFW_RELEASE && window.isKeyUnseen_) window.drawInterface();
-    window.isKeyUnseen_ = action != GLFW_RELEASE;
-    if (action != GLFW_RELEASE) window.key(key, mods);
-    window.wake();
+  static GLFWkeyfun guiKey = nullptr;
+  static GLFWmousebuttonfun guiButton = nullptr;
+  guiKey = glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
+    guiKey(w, key, scancode, action, mods);
+    if (action != GLFW_RELEASE) windowOf(w).key(key, mods);
+    if (action == GLFW_PRESS) windowOf(w).drawInterface();
+    windowOf(w).wake();
   });
-  glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double steps) {
+  guiButton = glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
+    if (action == GLFW_PRESS) windowOf(w).drawInterface(button);
+    guiButton(w, button, action, mods);
+    windowOf(w).drawInterface();
+    windowOf(w).wake();
+  });
+  static GLFWscrollfun guiScroll = nullptr;
+  guiScroll = glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double steps) {
+    guiScroll(w, x, steps);
     windowOf(w).scroll(steps);
+    windowOf(w).wake();
+  });
+  static GLFWwindowfocusfun guiFocus = nullptr;
+  guiFocus = glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int isFocused) {
+    guiFocus(w, isFocused);
+    windowOf(w).wake();
+  });
+  static GLFWcursorposfun guiCursor = nullptr;
+  guiCursor = glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+    if (guiCursor) guiCursor(w, x, y);
+    windowOf(w).cursor_ = glm::dvec2(x, y);
     windowOf(w).wake();
   });
   glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** files) {
     if (count > 0) windowOf(w).open(files[0]);
     windowOf(w).wake();
   });
-  glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { windowOf(w).wake(); });
-  // A press must find under the mouse what is there: so that is drawn before Dear ImGui knows of the press.
-  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
-    if (action == GLFW_PRESS) windowOf(w).drawInterface(button);
-    windowOf(w).wake();
-  });
   glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { windowOf(w).wake(); });
   glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { windowOf(w).wake(); });
-  glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { windowOf(w).wake(); });
 }
 
 void Window::open(const std::filesystem::path& file) {
@@ -153,7 +169,7 @@ void Window::open(const std::filesystem::path& file) {
     viewer_->open(file);
 }
 
-void Window::run(const std::filesystem::path& file) {
+bool Window::run(const std::filesystem::path& file) {
   layOut();
   if (!file.empty()) open(file);
   while (!glfwWindowShouldClose(window_)) {
@@ -163,12 +179,25 @@ void Window::run(const std::filesystem::path& file) {
     const Activity activity = viewer_->update(glfwGetTime());
     if (std::optional<Message> message = viewer_->takeMessage()) {
       session_->message = *message;
+      if (reports_ && message->isError) std::fprintf(stderr, "said: %s\n", message->text.c_str());
       wake();
     }
+    reportErrors();
     const bool isDue = activity == Activity::Drew || glfwGetTime() - lastDrawn_ > kMeasuredPause;
     if (framesToDraw_ > 0 || (activity != Activity::Idle && isDue)) drawInterface();
     waitForEvents(activity);
   }
+  return !hasErrors_;
+}
+
+void Window::reportErrors() {
+  if (!reports_) return;
+  for (host::Context* context : {screen_.get(), drawing_.get()})
+    for (const std::string& error : context->takeErrors()) {
+      std::fprintf(stderr, "GL: %s\n", error.c_str());
+      hasErrors_ = true;
+    }
+  drawing_->makeCurrent();
 }
 
 // In the middle of a picture that takes long.
@@ -226,9 +255,10 @@ void Window::lookCloser() {
 void Window::drawFrame(int unknownPress) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  if (IMGUI_VERSION_NUM < 18700 && cursor_)
+    ImGui::GetIO().MousePos = ImVec2(static_cast<float>(cursor_->x), static_cast<float>(cursor_->y));
   if (unknownPress >= 0 && unknownPress < ImGuiMouseButton_COUNT) ImGui::GetIO().MouseDown[unknownPress] = false;
   ImGui::NewFrame();
-  isKeyUnseen_ = false;
   drawPicture();
   if (showsPanel_) drawPanel();
   drawStatus();

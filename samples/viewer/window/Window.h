@@ -13,17 +13,19 @@ namespace viewer {
 
 class Window {
 public:
-  /// Throws host::Error without a display or OpenGL 3.3.
-  Window();
+  /// Throws host::Error without a display or OpenGL 3.3. `reports`: in a debug context, whose errors, and lines that
+  /// tell of mistakes, are printed on standard error as well.
+  explicit Window(bool reports = false);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  /// Until it is closed. `scene`: to begin with, a scene or a state; empty: none.
-  void run(const std::filesystem::path& scene);
+  /// Until it is closed. `scene`: to begin with, a scene or a state; empty: none. False: GL reported errors.
+  bool run(const std::filesystem::path& scene);
 
 private:
   void turn();
+  void reportErrors();
   void setScale(float scale);
   void setCallbacks();
   void wake() { framesToDraw_ = 3; }
@@ -53,8 +55,9 @@ private:
   float scale_ = 1;      ///< of the interface, by the display
   float panelWidth_ = 0; ///< in window units, 0 while hidden
   bool showsPanel_ = true;
-  bool isKeyUnseen_ = false; ///< one was pressed since the last frame
-  bool isFlying_ = false;    ///< a key is down
+  bool reports_ = false, hasErrors_ = false;
+  std::optional<glm::dvec2> cursor_; ///< of the last event
+  bool isFlying_ = false;  ///< a key is down
   bool isHandled_ = false;   ///< the mouse drags a handle, not the view
   double lastFlight_ = 0;
   int framesToDraw_ = 3; ///< Dear ImGui takes some to come to rest

@@ -14,10 +14,11 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "tyndall-viewer " TYNDALL_VERSION);
   std::filesystem::path file;
   app.add_option("FILE", file, "a glTF 2.0 file, .glb or .gltf, or a state that was saved, .json");
+  bool reports = false;
+  app.add_flag("--debug", reports, "report OpenGL's errors, and what the window says of mistakes, on standard error");
   render::parseArguments(app, argc, argv);
-  viewer::Window window;
-  window.run(file);
-  return 0;
+  viewer::Window window(reports);
+  return window.run(file) ? 0 : 1;
 }
 
 } // namespace
