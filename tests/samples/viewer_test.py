@@ -25,8 +25,8 @@ TABS = {"Scene": 30, "Light": 77, "Medium": 129, "Settings": 190, "Cost": 246, "
 class Viewer(Window):
     """The viewer, with xdotool's hands."""
 
-    def __init__(self, command, pictures):
-        super().__init__(command, "Tyndall viewer")
+    def __init__(self, command, pictures, errors=None):
+        super().__init__(command, "Tyndall viewer", errors)
         self.pictures = pictures
 
     def do(self, *words):

@@ -51,12 +51,12 @@ def library():
 class Window:
     """Starts a program and waits for its window; a context that ends both."""
 
-    def __init__(self, command, title):
+    def __init__(self, command, title, errors=None):
         self.x11 = library()
         self.display = ctypes.c_void_p(self.x11.XOpenDisplay(None))
         assert self.display, "no X server"
         self.root = ctypes.c_ulong(self.x11.XDefaultRootWindow(self.display))
-        self.process = subprocess.Popen(command)
+        self.process = subprocess.Popen(command, stderr=errors)
         self.window = self.wait("window", lambda: self.find(title))
 
     def __enter__(self):

@@ -25,6 +25,7 @@ void FileDialog::open(const std::string& title, const std::filesystem::path& fol
   name_ = name;
   isSaving_ = !name.empty();
   isOpen_ = isNew_ = true;
+  isCancelled_ = false;
   enter(folder.empty() ? std::filesystem::path(".") : folder);
 }
 
@@ -91,7 +92,7 @@ std::optional<std::filesystem::path> FileDialog::draw() {
   if (ImGui::Button(isSaving_ ? "Save" : "Open")) isDone = true;
   ImGui::EndDisabled();
   ImGui::SameLine();
-  if (ImGui::Button("Cancel")) isOpen_ = false;
+  if (ImGui::Button("Cancel") || isCancelled_) isOpen_ = false;
   if (isDone && !name_.empty()) {
     chosen = folder_ / name_; // an absolute name stays one
     isOpen_ = false;

@@ -14,6 +14,7 @@ public:
   void open(const std::string& title, const std::filesystem::path& folder, std::vector<std::string> endings,
             const std::string& name = {});
   bool isOpen() const { return isOpen_; }
+  void cancel() { isCancelled_ = true; }
 
   /// Draws it while it is open; the file once it is chosen.
   std::optional<std::filesystem::path> draw();
@@ -28,7 +29,7 @@ private:
   std::vector<std::string> folders_, files_;
   std::string name_;
   std::string problem_; ///< why the folder cannot be listed
-  bool isOpen_ = false, isNew_ = false, isSaving_ = false;
+  bool isOpen_ = false, isNew_ = false, isCancelled_ = false, isSaving_ = false;
 };
 
 } // namespace viewer

@@ -108,7 +108,6 @@ void Window::scroll(double steps) {
 }
 
 void Window::control(int key) {
-  if (key == GLFW_KEY_Q) glfwSetWindowShouldClose(window_, GLFW_TRUE);
   if (key == GLFW_KEY_Z) viewer_->undo();
   if (key == GLFW_KEY_Y) viewer_->redo();
   if (key == GLFW_KEY_O) {
@@ -123,7 +122,11 @@ void Window::control(int key) {
 
 void Window::key(int key, int mods) {
   if (key == GLFW_KEY_F1) session_->hasHelp = !session_->hasHelp;
-  if (key == GLFW_KEY_ESCAPE) session_->hasHelp = false;
+  if (key == GLFW_KEY_ESCAPE) {
+    session_->hasHelp = false;
+    session_->dialog.cancel();
+  }
+  if (key == GLFW_KEY_Q && (mods & GLFW_MOD_CONTROL) != 0) glfwSetWindowShouldClose(window_, GLFW_TRUE);
   if (ImGui::GetIO().WantTextInput || session_->dialog.isOpen()) return;
   if ((mods & GLFW_MOD_CONTROL) != 0) return control(key);
   if (key == GLFW_KEY_TAB) showsPanel_ = !showsPanel_;

@@ -35,7 +35,7 @@ constexpr Key kKeys[] = {
     {"Tab", "hide or show the panel"},
     {"Ctrl+click", "on a slider: type the number"},
     {"right click", "on a setting: its default"},
-    {"F1, Escape", "this help, close it"},
+    {"F1, Escape", "this help; close it, or a dialog"},
 };
 
 } // namespace
