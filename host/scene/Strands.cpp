@@ -57,6 +57,20 @@ Strands strandsAt(const Scene& scene, const std::vector<glm::dmat4>& worldFromNo
   return strands;
 }
 
+Strands thinned(const Strands& strands, int of) {
+  Strands some;
+  some.points = strands.points;
+  for (StrandPoint& point : some.points)
+    point.strand.width *= of;
+  int strand = -1;
+  for (std::size_t i = 0; i < strands.segments.size(); ++i) {
+    const bool goesOn = i > 0 && strands.segments[i].x == strands.segments[i - 1].y;
+    strand += goesOn ? 0 : 1;
+    if (strand % of == 0) some.segments.push_back(strands.segments[i]);
+  }
+  return some;
+}
+
 Strand defaultStrand(const Primitive& lines) {
   constexpr float kHuge = std::numeric_limits<float>::max();
   glm::vec3 low(kHuge);

@@ -23,6 +23,10 @@ bool hasStrands(const Scene& scene);
 /// All lines of the scene. A point's tangent is the mean of its segments' directions, so neighbours share their ends.
 Strands strandsAt(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode);
 
+/// One strand of each `of` that follow each other, as many times as wide: about as much light is stopped, in a fraction
+/// of the time.
+Strands thinned(const Strands& strands, int of);
+
 /// What strands of a primitive look like if nothing else is said: as fine as hair on a head that fills its bounds.
 Strand defaultStrand(const Primitive& lines);
 

@@ -8,7 +8,7 @@ cd "$(dirname "$0")/../.."
 . samples/setup.sh
 if [ -z "${DISPLAY_OF_ITS_OWN:-}" ]; then
   install_packages ffmpeg webp xvfb xauth xdotool
-  DISPLAY_OF_ITS_OWN=1 exec xvfb-run -a -s "-screen 0 1280x720x24" "$0"
+  DISPLAY_OF_ITS_OWN=1 exec xvfb-run -a -s "-screen 0 1280x720x24" sh samples/gallery/viewer.sh
 fi
 
 work=out/gallery/viewer

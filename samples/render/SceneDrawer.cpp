@@ -174,8 +174,8 @@ std::vector<double> SceneDrawer::mapsKeyOf(const settings::State& state, const M
                                            const std::vector<tyndall::Light>& lights) const {
   std::vector<double> key = {static_cast<double>(state.shadowSize), static_cast<double>(lights.size())};
   if (hasVolumes())
-    append(key,
-           std::initializer_list<double>{moment.seconds, state.smokeDensity, state.strandWidth, state.strandOpacity});
+    append(key, std::initializer_list<double>{moment.seconds, state.smokeDensity, state.strandWidth,
+                                              state.strandOpacity, double(moment.isCoarse)});
   for (const glm::dmat4& matrix : worldFromNode)
     append(key, matrix);
   for (const tyndall::Light& light : lights)
@@ -188,7 +188,9 @@ void SceneDrawer::setVolumes(const settings::State& state, const Moment& moment,
   std::vector<host::SmokeParticle> smoke = host::smokeAt(scene_, moment.seconds);
   for (host::SmokeParticle& particle : smoke)
     particle.density *= state.smokeDensity;
+  constexpr int kFew = 8; // strands for one that is drawn while things move
   host::Strands strands = host::strandsAt(scene_, worldFromNode);
+  if (moment.isCoarse) strands = host::thinned(strands, kFew);
   for (host::StrandPoint& point : strands.points) {
     point.strand.width *= state.strandWidth;
     point.strand.opacity *= state.strandOpacity;

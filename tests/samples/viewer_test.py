@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy
 from PIL import Image
 
+from drop import drop
 from window import Window
 
 PANEL = 380  # units of its width
@@ -25,9 +26,10 @@ TABS = {"Scene": 30, "Light": 77, "Medium": 129, "Settings": 190, "Cost": 246, "
 class Viewer(Window):
     """The viewer, with xdotool's hands."""
 
-    def __init__(self, command, pictures, errors=None):
-        super().__init__(command, "Tyndall viewer", errors)
-        self.pictures = pictures
+    def __init__(self, command, pictures, told):
+        """told: a file for what it reports."""
+        self.pictures, self.told = pictures, told
+        super().__init__([command[0], "--debug", *command[1:]], "Tyndall viewer", open(told, "w", encoding="utf-8"))
 
     def do(self, *words):
         subprocess.run(["xdotool", *map(str, words)], check=True)
@@ -63,17 +65,14 @@ class Viewer(Window):
             Image.fromarray((picture * 255).astype("uint8")).save(self.pictures / f"{name}.png")
         return picture
 
-    def still(self, seconds=1.5):
-        """The picture once it has not changed for a while, the line at the bottom apart."""
-        last, since = None, 0
-
-        def is_still():
-            nonlocal last, since
-            now = self.picture()[:-40, PANEL:]
-            if last is None or now.shape != last.shape or numpy.abs(now - last).max() > 1 / 255:
-                last, since = now, time.monotonic()
-            return time.monotonic() - since > seconds
-        self.wait("picture at rest", is_still)
+    def still(self):
+        """The picture once there is nothing left to do, and it has been shown."""
+        def rests():
+            states = [line for line in self.told.read_text().splitlines() if line in ("busy", "at rest")]
+            return states and states[-1] == "at rest"
+        time.sleep(0.4)
+        self.wait("rest", rests)
+        time.sleep(0.4)
         return self.picture()
 
 
@@ -147,17 +146,32 @@ def save_and_render(viewer, render, folder):
     assert apart.max() < 1.5 / 255  # the window's curve is a shader's
 
 
-def open_broken(viewer, folder):
+def is_red(viewer):
+    """Whether the line at the bottom tells of a mistake."""
+    return (numpy.abs(viewer.picture()[-30:, PANEL:] - numpy.array([255, 140, 120]) / 255).max(axis=2) < 0.1).sum() > 30
+
+
+def open_broken(viewer, folder, scenes):
+    """By dialog, and dropped: a line says why, and the old scene stays. Then one that is whole is dropped."""
     before = viewer.still()
     broken = folder / "broken.glb"
     broken.write_text("glTF, but no more")
     viewer.press("ctrl+o")
     time.sleep(1)
     viewer.write(str(broken))
-    red = lambda: (numpy.abs(viewer.picture()[-30:, PANEL:] - numpy.array([255, 140, 120]) / 255).max(axis=2) < 0.1).sum() > 30
-    viewer.wait("message", red)
+    viewer.wait("message", lambda: is_red(viewer))
     viewer.look("broken")
     assert difference(before, viewer.still()) < 0.001, "the old scene does not stay"
+    missing = folder / "missing.json"
+    missing.write_text(json.dumps({"version": 1, "scene": "gone.glb"}))
+    drop(viewer.window, missing, 800, 400)
+    time.sleep(1)
+    viewer.wait("message of the state", lambda: is_red(viewer))
+    assert difference(before, viewer.still()) < 0.001, "the old scene does not stay"
+    drop(viewer.window, Path(scenes).resolve() / "projector.glb", 800, 400)
+    viewer.wait("dropped scene", lambda: not is_red(viewer) and difference(before, viewer.picture()) > 0.02)
+    viewer.still()
+    viewer.look("dropped")
 
 
 def compare(viewer):
@@ -173,6 +187,7 @@ def compare(viewer):
     assert is_edge(viewer.still(), middle), "no edge of the wipe in the middle"
     viewer.drag((middle, 600), (middle - 250, 600))
     wiped = viewer.still()
+    viewer.look("wiped")
     assert is_edge(wiped, middle - 250), "the wipe is not dragged"
     viewer.press("m")
     viewer.move(middle, 400)
@@ -202,6 +217,14 @@ def rest(viewer):
     viewer.wait("rest", lambda: [ticks(), time.sleep(2)][0] == ticks())
 
 
+def refused(program, without=None, **more):
+    """It says on the terminal why there is no window, and ends."""
+    environment = {**{key: value for key, value in os.environ.items() if key != without}, **more}
+    ended = subprocess.run([program], env=environment, capture_output=True, text=True, check=False)
+    print(ended.stderr.strip())
+    assert ended.returncode == 1 and re.fullmatch(r"tyndall-viewer: no window.*\n", ended.stderr), ended
+
+
 def main():
     program, render, scenes = sys.argv[1:4]
     pictures = Path(sys.argv[4]) if len(sys.argv) > 4 else None
@@ -213,24 +236,25 @@ def main():
         start = folder / "start.json"
         start.write_text(json.dumps({"version": 1, "scene": f"{Path(scenes).resolve()}/stage.glb", "profile": "performance",
                                      "maps": {"shadowSize": 512}}))
-        with Viewer([program, "--debug", start], pictures) as viewer:
+        with Viewer([program, start], pictures, folder / "told.txt") as viewer:
             viewer.wait("picture", lambda: viewer.picture()[:, PANEL:].mean() > 0.05)
             look_at_panels(viewer)
             drag_view_and_light(viewer)
             save_and_render(viewer, render, folder)
             compare(viewer)
-            open_broken(viewer, folder)
+            open_broken(viewer, folder, scenes)
             change_sizes(viewer)
             rest(viewer)
             viewer.press("ctrl+q")
             assert viewer.exit_status() == 0
-        with Viewer([program, "--debug", f"{scenes}/forest.glb"], pictures) as viewer:  # closed while it loads
+        strange = [line for line in (folder / "told.txt").read_text().splitlines()
+                   if line not in ("busy", "at rest") and not line.startswith("said: ")]
+        assert not strange, "\n".join(strange)
+        with Viewer([program, f"{scenes}/forest.glb"], pictures, folder / "closed.txt") as viewer:  # closed while it loads
             viewer.press("ctrl+q")
             assert viewer.exit_status() == 0
-    environment = {key: value for key, value in os.environ.items() if key != "DISPLAY"}
-    alone = subprocess.run([program], env=environment, capture_output=True, text=True, check=False)
-    print(alone.stderr.strip())
-    assert alone.returncode == 1 and re.fullmatch(r"tyndall-viewer: no window: .*\n", alone.stderr)
+    refused(program, without="DISPLAY")
+    refused(program, MESA_GL_VERSION_OVERRIDE="2.1")
 
 
 if __name__ == "__main__":

@@ -119,9 +119,9 @@ void Window::setScale(float scale) {
   ImGui::GetStyle().ScaleAllSizes(scale);
 }
 
-// Before version 1.87 Dear ImGui asks once a frame where the mouse is by then and what is pressed. So it is told where the
-// events are; what is under a press is drawn before it knows of the press, and what comes of it before the mouse goes on,
-// or the key is let go.
+// Before version 1.87 Dear ImGui asks once a frame where the mouse is by then and what is pressed. So it is told where
+// the events are; what is under a press is drawn before it knows of the press, and what comes of it before the mouse
+// goes on, or the key is let go.
 void Window::setCallbacks() {
   static GLFWkeyfun guiKey = nullptr;
   static GLFWmousebuttonfun guiButton = nullptr;
@@ -183,11 +183,18 @@ bool Window::run(const std::filesystem::path& file) {
       wake();
     }
     reportErrors();
+    reportRest(activity == Activity::Idle);
     const bool isDue = activity == Activity::Drew || glfwGetTime() - lastDrawn_ > kMeasuredPause;
     if (framesToDraw_ > 0 || (activity != Activity::Idle && isDue)) drawInterface();
     waitForEvents(activity);
   }
   return !hasErrors_;
+}
+
+// For who watches from outside.
+void Window::reportRest(bool rests) {
+  if (reports_ && rests != rests_) std::fputs(rests ? "at rest\n" : "busy\n", stderr);
+  rests_ = rests;
 }
 
 void Window::reportErrors() {

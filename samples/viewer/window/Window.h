@@ -26,6 +26,7 @@ public:
 private:
   void turn();
   void reportErrors();
+  void reportRest(bool rests);
   void setScale(float scale);
   void setCallbacks();
   void wake() { framesToDraw_ = 3; }
@@ -55,10 +56,10 @@ private:
   float scale_ = 1;      ///< of the interface, by the display
   float panelWidth_ = 0; ///< in window units, 0 while hidden
   bool showsPanel_ = true;
-  bool reports_ = false, hasErrors_ = false;
+  bool reports_ = false, hasErrors_ = false, rests_ = false;
   std::optional<glm::dvec2> cursor_; ///< of the last event
-  bool isFlying_ = false;  ///< a key is down
-  bool isHandled_ = false;   ///< the mouse drags a handle, not the view
+  bool isFlying_ = false;            ///< a key is down
+  bool isHandled_ = false;           ///< the mouse drags a handle, not the view
   double lastFlight_ = 0;
   int framesToDraw_ = 3; ///< Dear ImGui takes some to come to rest
   double lastDrawn_ = 0;

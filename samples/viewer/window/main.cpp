@@ -15,7 +15,9 @@ int run(int argc, char** argv) {
   std::filesystem::path file;
   app.add_option("FILE", file, "a glTF 2.0 file, .glb or .gltf, or a state that was saved, .json");
   bool reports = false;
-  app.add_flag("--debug", reports, "report OpenGL's errors, and what the window says of mistakes, on standard error");
+  app.add_flag(
+      "--debug", reports,
+      "report on standard error: OpenGL's errors, what the window says of mistakes, and whether it is at rest");
   render::parseArguments(app, argc, argv);
   viewer::Window window(reports);
   return window.run(file) ? 0 : 1;

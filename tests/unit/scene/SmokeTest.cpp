@@ -215,3 +215,22 @@ TEST_CASE("Lines are strands, as their material and they themselves say", "[scen
   extras = {{"width", 0}};
   CHECK_THAT(file.refusal(), Catch::Contains("strand.width: must be greater than 0"));
 }
+
+TEST_CASE("of many strands some are drawn, each as wide as those that it stands for", "[scene][strands]") {
+  host::Strands strands;
+  constexpr unsigned kStrands = 20, kPoints = 5;
+  for (unsigned strand = 0; strand < kStrands; ++strand)
+    for (unsigned i = 0; i < kPoints; ++i) {
+      strands.points.push_back({{strand, i, 0}, {0, 1, 0}, {0.5, 0.25}, glm::vec3(1)});
+      if (i > 0) strands.segments.emplace_back(strand * kPoints + i - 1, strand * kPoints + i);
+    }
+  const host::Strands some = host::thinned(strands, 4);
+  REQUIRE(some.segments.size() == strands.segments.size() / 4);
+  for (const glm::uvec2& segment : some.segments) {
+    CHECK(segment.y == segment.x + 1);
+    CHECK(segment.x / kPoints % 4 == 0); // whole strands
+    CHECK(some.points[segment.x].strand.width == 2);
+    CHECK(some.points[segment.x].strand.opacity == 0.25);
+  }
+  CHECK(host::thinned({}, 4).segments.empty());
+}

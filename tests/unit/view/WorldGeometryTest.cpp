@@ -94,3 +94,22 @@ TEST_CASE("a ray's first hit and the side it meets") {
   }
   CHECK_FALSE(host::firstHit(geometry, {0, 0, 5}, {0, 0, 1}));
 }
+
+TEST_CASE("boxes hold the scene, and no more than the bounds of its primitives") {
+  host::Scene scene = tests::scatteredTriangles(3, 200, {-1, -2, -3}, {3, 2, 1}, 0.4);
+  scene.textures.resize(3);
+  const host::Scene boxes = host::boxesOf(scene);
+  const tests::Pose pose = {glm::translate(kIdentity, glm::dvec3(5, 6, 7))};
+  const host::Bounds bounds = host::boundsOf(scene, pose), held = host::boundsOf(boxes, pose);
+  CHECK(glm::length(bounds.low - held.low) < 1e-12);
+  CHECK(glm::length(bounds.high - held.high) < 1e-12);
+  CHECK(boxes.textures.empty());
+  CHECK(boxes.materials.size() == scene.materials.size());
+  const host::WorldGeometry box = host::worldGeometry(boxes, pose);
+  CHECK(box.triangleCount() == 12);
+  const glm::dvec3 middle = 0.5 * (bounds.low + bounds.high);
+  for (const glm::dvec3& way : {glm::dvec3(1, 0.1, 0.2), glm::dvec3(-0.3, 1, 0.1), glm::dvec3(0.1, 0.2, -1)}) {
+    CHECK_FALSE(host::firstHit(box, middle, way)->front); // seen from inside
+    CHECK(host::firstHit(box, middle + 100.0 * way, -way)->front);
+  }
+}
