@@ -164,8 +164,8 @@ void SceneBuffers::submit(const Primitive& primitive) {
   gl().BindVertexArray(primitive.vertexArray.name());
   const GLsizei most = Pause::isWanted() ? kAtOnce : primitive.count;
   for (GLsizei first = 0; first < primitive.count; first += most) {
-    const auto* const offset = reinterpret_cast<const void*>(first * sizeof(std::uint32_t));
-    gl().DrawElements(primitive.mode, std::min(most, primitive.count - first), GL_UNSIGNED_INT, offset);
+    gl().DrawElements(primitive.mode, std::min(most, primitive.count - first), GL_UNSIGNED_INT,
+                      bufferOffset(static_cast<std::size_t>(first) * sizeof(std::uint32_t)));
     Pause::take();
   }
 }

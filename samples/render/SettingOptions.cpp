@@ -16,6 +16,7 @@ using Store = std::function<void(const Value&)>;
 
 std::vector<std::string> namesOf(const std::vector<settings::Choice>& choices) {
   std::vector<std::string> names;
+  names.reserve(choices.size());
   for (const settings::Choice& choice : choices)
     names.emplace_back(choice.name);
   return names;
@@ -47,6 +48,7 @@ void addNumber(CLI::App& app, const Row& row, const std::string& help, const Sto
   const Rule& rule = row.rule;
   if (!rule.only.empty()) {
     std::vector<Number> numbers;
+    numbers.reserve(rule.only.size());
     for (const double number : rule.only)
       numbers.push_back(static_cast<Number>(number));
     option->check(CLI::IsMember(numbers));

@@ -75,7 +75,7 @@ std::string ruleOf(const Row& row) {
 }
 
 std::string breachOf(const Row& row, const Value& value) {
-  const std::string must = "must be " + ruleOf(row);
+  std::string must = "must be " + ruleOf(row);
   if (value.count == 0 && row.rule.mayBeUnset) return {};
   if (value.count != row.count()) return must;
   bool isZero = true;
@@ -88,7 +88,8 @@ std::string breachOf(const Row& row, const Value& value) {
     if (!holds || !isWhole) return must;
     isZero = isZero && number == 0;
   }
-  return row.type == Type::Direction && isZero ? must : std::string();
+  if (row.type == Type::Direction && isZero) return must;
+  return {};
 }
 
 std::string textOf(const Row& row, const Value& value) {

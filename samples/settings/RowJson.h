@@ -3,6 +3,7 @@
 
 #include "Row.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace settings {
@@ -41,7 +42,7 @@ void readInto(const Table<Owner>& table, Owner& owner, const Json& object, const
               const std::vector<std::string>& others = {}, const std::string& prefix = {}) {
   requireObject(object, where);
   for (const auto& [name, value] : object.items()) {
-    const std::string field = prefix + name, inner = field + ".", place = where + "." + name;
+    const std::string field = prefix + name, inner = field + ".", place = fmt::format("{}.{}", where, name);
     if (std::find(others.begin(), others.end(), field) != others.end()) continue;
     bool isRow = false, isPart = false;
     for (const Setting<Owner>& row : table.rows) {

@@ -35,7 +35,7 @@ template <typename Owner>
 std::string breachIn(const std::string& where, const Table<Owner>& table, const Owner& owner) {
   for (const Setting<Owner>& row : table.rows)
     if (const std::string breach = breachOf(row, row.get(owner)); !breach.empty())
-      return where + "." + row.field + ": " + textOf(row, row.get(owner)) + " " + breach;
+      return fmt::format("{}.{}: {} {}", where, row.field, textOf(row, row.get(owner)), breach);
   return {};
 }
 

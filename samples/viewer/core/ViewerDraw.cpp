@@ -164,9 +164,9 @@ void Viewer::drawMoving() {
   pauses_ = 0;
   drawScene(fast, quality.level() > 0);
   drawWay(*first_, fast.settings);
-  if (state().compared) {
+  if (const std::optional<settings::Compared>& compared = state().compared) {
     settings::State other = state();
-    other.settings = state().compared->settings;
+    other.settings = compared->settings;
     drawWay(*second_, atLevel(other, quality.level()).settings);
   }
   isDirty_ = false;

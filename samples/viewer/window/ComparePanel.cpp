@@ -12,16 +12,16 @@ void edit(Viewer& viewer, const std::string& what, const settings::Compared& com
   viewer.edit("compared." + what, state);
 }
 
-void chooseProfile(Viewer& viewer) {
+void chooseProfile(Viewer& viewer, tyndall::Profile now) {
   for (const settings::Choice& profile : settings::kProfiles) {
     const auto value = static_cast<tyndall::Profile>(profile.value);
     if (profile.value > 0) ImGui::SameLine();
-    if (ImGui::RadioButton(profile.enumerator, viewer.state().compared->profile == value))
+    if (ImGui::RadioButton(profile.enumerator, now == value))
       edit(viewer, "profile", {value, tyndall::settingsOf(value)});
   }
 }
 
-void drawSecond(Session& session) {
+void drawSecond(Session& session, const settings::Compared& now) {
   Viewer& viewer = session.viewer;
   ImGui::SetNextItemWidth(-1);
   float percent = 100 * viewer.shownAs().wipe;
@@ -32,11 +32,11 @@ void drawSecond(Session& session) {
   ImGui::SameLine();
   if (ImGui::SmallButton("A takes B's")) {
     settings::State state = viewer.state();
-    state.settings = state.compared->settings;
-    state.profile = state.compared->profile;
+    state.settings = now.settings;
+    state.profile = now.profile;
     viewer.edit("settings of B", state);
   }
-  if (!viewer.second()) return; // A has just taken B's
+  if (!viewer.second()) return;
   ImGui::Text("effect: A %.1f ms, B %.1f ms", viewer.first().milliseconds(), viewer.second()->milliseconds());
   const std::vector<Errors>& errors = viewer.meter().errors();
   if (errors.size() > 1)
@@ -44,8 +44,8 @@ void drawSecond(Session& session) {
                 100 * errors[1].rRmse, 100 * errors[0].p99, 100 * errors[1].p99);
   ImGui::Separator();
   ImGui::TextUnformatted("Settings of B");
-  chooseProfile(viewer);
-  settings::Compared edited = *viewer.state().compared;
+  chooseProfile(viewer, now.profile);
+  settings::Compared edited = now;
   std::string field;
   if (editRows(settings::settingsTable(), edited.settings, tyndall::settingsOf(edited.profile), field, {"debugView"}))
     edit(viewer, field, edited);
@@ -77,7 +77,7 @@ void drawComparePanel(Session& session) {
                            ImGuiSliderFlags_Logarithmic))
       viewer.setDifferenceScale(std::max(percent, 0.1F) / 100);
   }
-  if (viewer.state().compared) drawSecond(session);
+  if (const std::optional<settings::Compared> now = viewer.state().compared) drawSecond(session, *now);
 }
 
 } // namespace viewer
