@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <scene/Error.h>
+#include <set>
 #include <settings/StateFile.h>
 #include <settings/Tables.h>
 

@@ -66,7 +66,7 @@ void drawMaps(Viewer& viewer, const char* name, const char* group, const setting
 } // namespace
 
 std::vector<settings::StateLight> editableLights(const Viewer& viewer) {
-  if (viewer.state().lights) return *viewer.state().lights;
+  if (const auto& lights = viewer.state().lights) return *lights;
   if (!viewer.scene()) return {};
   host::Notes ofNoConcern;
   const std::vector<glm::dmat4> pose = host::poseAt(*viewer.scene(), viewer.state().seconds);

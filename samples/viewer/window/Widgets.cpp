@@ -139,6 +139,7 @@ bool isAmong(const std::vector<std::string>& fields, const std::string& field) {
   return std::find(fields.begin(), fields.end(), field) != fields.end();
 }
 
+// NOLINTNEXTLINE(performance-no-int-to-ptr): which type it is depends on Dear ImGui's version
 ImTextureID imageOf(GLuint texture) { return (ImTextureID)(std::intptr_t)texture; }
 
 void tooltip(const std::string& text) {
