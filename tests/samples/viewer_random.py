@@ -5,6 +5,7 @@ OpenGL error and no setting out of range, keep its memory bounded, and end with 
 viewer_random.py VIEWER RENDER SCENES [--events N] [--seed S]
 """
 import argparse
+import contextlib
 import json
 import os
 import random
@@ -101,6 +102,17 @@ def check_state(render, file, scenes):
     assert drawn.returncode == 0, f"a saved state is refused: {drawn.stderr}"
 
 
+@contextlib.contextmanager
+def telling(told):
+    """What the viewer reported is printed where anything goes wrong."""
+    try:
+        yield
+    except BaseException:
+        lines = [line for line in told.read_text(errors="replace").splitlines() if line not in ("busy", "at rest")]
+        print("\n".join(["the viewer reported:", *lines[-80:]]), flush=True)
+        raise
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("viewer")
@@ -122,7 +134,7 @@ def main():
         start.write_text(json.dumps({"version": 1, "scene": str(files[0]), "maps": {"shadowSize": 256},
                                      "profile": "performance", "picture": {"exposureStops": 0}}))
         told = folder / "told.txt"
-        with Viewer([viewer_path, str(start)], None, told) as viewer:
+        with telling(told), Viewer([viewer_path, str(start)], None, told) as viewer:
             viewer.wait("picture", lambda: viewer.picture()[:, PANEL:].mean() > 0.01)
             player = Player(viewer, options.seed)
             batch, begin, early, most = 50, time.monotonic(), 0, 0

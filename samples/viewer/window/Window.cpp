@@ -126,7 +126,9 @@ void Window::setCallbacks() {
   static GLFWkeyfun guiKey = nullptr;
   static GLFWmousebuttonfun guiButton = nullptr;
   guiKey = glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
-    guiKey(w, key, scancode, action, mods);
+    // Undo of a text that was set anew since: Dear ImGui would write beside it.
+    const bool isTextUndo = (mods & GLFW_MOD_CONTROL) != 0 && (key == GLFW_KEY_Z || key == GLFW_KEY_Y);
+    if (!isTextUndo || action == GLFW_RELEASE) guiKey(w, key, scancode, action, mods);
     if (action != GLFW_RELEASE) windowOf(w).key(key, mods);
     if (action == GLFW_PRESS) windowOf(w).drawInterface();
     windowOf(w).wake();
