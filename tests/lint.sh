@@ -47,7 +47,9 @@ list '*.cpp' | grep -vE "$unknown" | while read -r source; do
   stamp=$stamps/$(echo "$source" | cat - "$source" | sha256sum | cut -c1-16)-$rules
   [ -f "$stamp" ] || echo "$source $stamp"
 done >"$stamps/todo"
+# Paths through calls are followed less far than the analyzer's default has it, which takes three times as long.
 # shellcheck disable=SC2016 # the inner shell expands them
 xargs -r -n 2 -P "$(nproc)" sh -c '
-  "$0" -p build/lint --quiet --extra-arg=-Wno-deprecated-declarations "$1" >"$2.log" 2>&1 && mv "$2.log" "$2" || { cat "$2.log"; exit 1; }' "$clang_tidy" <"$stamps/todo"
+  "$0" -p build/lint --quiet --extra-arg=-Wno-deprecated-declarations --extra-arg=-Xclang --extra-arg=-analyzer-config \
+    --extra-arg=-Xclang --extra-arg=mode=shallow "$1" >"$2.log" 2>&1 && mv "$2.log" "$2" || { cat "$2.log"; exit 1; }' "$clang_tidy" <"$stamps/todo"
 echo "$clang_tidy: clean"

@@ -83,6 +83,22 @@ class Player:
         self.viewer.write(str(file))
 
 
+def undo_text(player):
+    """A name that is typed, another one in its place, and the first one's changes taken back."""
+    viewer = player.viewer
+    for name in ("a-name-that-is-longer.json", "b"):
+        viewer.press("ctrl+s")
+        time.sleep(0.3)
+        viewer.do("key", "ctrl+a")
+        viewer.do("type", "--delay", "20", name)
+        for key in ("BackSpace", "BackSpace", "ctrl+z", "ctrl+z", "ctrl+z", "ctrl+y", "ctrl+y", "ctrl+z"):
+            viewer.do("key", key)
+        viewer.do("type", "--delay", "20", name)
+        viewer.press("Escape")
+        time.sleep(0.2)
+    player.calm()
+
+
 def memory(process):
     fields = Path(f"/proc/{process.pid}/status").read_text().split()
     return int(fields[fields.index("VmRSS:") + 1])
@@ -137,6 +153,7 @@ def main():
         with telling(told), Viewer([viewer_path, str(start)], None, told) as viewer:
             viewer.wait("picture", lambda: viewer.picture()[:, PANEL:].mean() > 0.01)
             player = Player(viewer, options.seed)
+            undo_text(player)
             batch, begin, early, most = 50, time.monotonic(), 0, 0
             for number in range(0, options.events, batch):
                 player.play(min(batch, options.events - number))

@@ -92,7 +92,7 @@ TEST_CASE("depth that is given as luminance or intensity is read, as alpha refus
   CHECK(status.message.find("GL_DEPTH_TEXTURE_MODE must not be GL_ALPHA") != std::string::npos);
 }
 
-TEST_CASE("the compatibility profile draws the picture of the core profile") {
+TEST_CASE("the compatibility profile draws the picture of the core profile", "[compatibility][once]") {
   reference::ImageAnswer answers[2];
   for (const auto profile : {host::ContextProfile::Core, host::ContextProfile::Compatibility}) {
     const auto context = host::Context::create(tests::testContextKind(), {/*debug*/ true, profile});
