@@ -80,6 +80,9 @@ Window::Window(bool reports) : reports_(reports) {
   glfwSwapInterval(1);
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr; // the layout is ours
+#if IMGUI_VERSION_NUM >= 18700
+  ImGui::GetIO().ConfigInputTrickleEventQueue = false; // each press has a frame of its own: setCallbacks()
+#endif
   float scaleX = 1, scaleY = 1;
   glfwGetWindowContentScale(window_, &scaleX, &scaleY);
   setScale(std::max(scaleX, scaleY));
