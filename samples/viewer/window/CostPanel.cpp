@@ -123,9 +123,10 @@ void drawCostPanel(Session& session) {
               viewer.isSettled() ? "at full quality" : "adapted");
   ImGui::Text("maps and surfaces %.1f ms, effect %.1f ms", viewer.sceneMilliseconds(), viewer.first().milliseconds());
   drawPasses(statistics, session.isEachLight);
-  ImGui::Text("%.1f MiB, %llu samples marched, %llu fix-up pixels", static_cast<double>(statistics.bytes) / (1 << 20),
-              static_cast<unsigned long long>(statistics.marchedSamples),
-              static_cast<unsigned long long>(statistics.fixupPixels));
+  ImGui::TextWrapped("%.1f MiB, %llu samples marched, %llu fix-up pixels",
+                     static_cast<double>(statistics.bytes) / (1 << 20),
+                     static_cast<unsigned long long>(statistics.marchedSamples),
+                     static_cast<unsigned long long>(statistics.fixupPixels));
   ImGui::Text("redrawn %.0f %%, %d programs", 100 * statistics.redrawnShare, statistics.compiledPrograms);
   drawError(viewer);
   drawTimes(viewer.frameTimes());
