@@ -83,16 +83,18 @@ TEST_CASE("between draws: what is drawn in another context meanwhile does not ma
   int turns = 0;
   const auto drawElsewhere = [&] {
     other->makeCurrent();
-    const host::GlTexture texture = host::makeTexture2D(GL_RGBA8, 4, 4);
-    const host::GlFramebuffer framebuffer = host::makeFramebuffer();
-    const GladGLContext& gl = host::gl();
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.name(), 0);
-    gl.Enable(GL_SCISSOR_TEST);
-    gl.Scissor(1, 1, 2, 2);
-    gl.ColorMask(GL_TRUE, GL_FALSE, GL_TRUE, GL_FALSE);
-    gl.Clear(GL_COLOR_BUFFER_BIT);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    {
+      const host::GlTexture texture = host::makeTexture2D(GL_RGBA8, 4, 4);
+      const host::GlFramebuffer framebuffer = host::makeFramebuffer();
+      const GladGLContext& gl = host::gl();
+      gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+      gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.name(), 0);
+      gl.Enable(GL_SCISSOR_TEST);
+      gl.Scissor(1, 1, 2, 2);
+      gl.ColorMask(GL_TRUE, GL_FALSE, GL_TRUE, GL_FALSE);
+      gl.Clear(GL_COLOR_BUFFER_BIT);
+      gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    }
     own.makeCurrent();
     return ++turns > 0;
   };
