@@ -1,9 +1,11 @@
 #include "SceneDrawer.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <gl/Driver.h>
 #include <gl/Pause.h>
 #include <scene/Advice.h>
+#include <scene/Error.h>
 #include <scene/MovedObjects.h>
 #include <scene/Projection.h>
 #include <scene/ShadowViews.h>
@@ -35,6 +37,8 @@ void jitterCamera(const settings::State& state, int frame, tyndall::Camera& came
 tyndall::ClipDepth clipDepthOf(const settings::State& state) {
   return state.reversedDepth ? tyndall::ClipDepth::ZeroToOne : tyndall::ClipDepth::NegativeOneToOne;
 }
+
+double gibibytes(std::uint64_t bytes) { return static_cast<double>(bytes) / (1U << 30); }
 
 template <typename Numbers>
 void append(std::vector<double>& key, const Numbers& numbers) {
@@ -183,6 +187,18 @@ std::vector<double> SceneDrawer::mapsKeyOf(const settings::State& state, const M
   return key;
 }
 
+void SceneDrawer::checkMapBytes(const settings::State& state, const tyndall::Frame& frame) const {
+  std::uint64_t views = 0;
+  for (const tyndall::Light& light : frame.lights)
+    views += light.shadow.views.size();
+  const std::uint64_t texelBytes = renderer_->hasGlass() ? 16 : 4; // depth; colour and depth of glass
+  const auto side = static_cast<std::uint64_t>(state.shadowSize);
+  const std::uint64_t bytes = views * side * side * texelBytes;
+  if (bytes > mostMapBytes)
+    throw host::Error(fmt::format("maps.shadowSize: {} makes {:.1f} GiB of {} shadow maps, of at most {:.1f}",
+                                  state.shadowSize, gibibytes(bytes), views, gibibytes(mostMapBytes)));
+}
+
 void SceneDrawer::setVolumes(const settings::State& state, const Moment& moment,
                              const std::vector<glm::dmat4>& worldFromNode) {
   std::vector<host::SmokeParticle> smoke = host::smokeAt(scene_, moment.seconds);
@@ -209,6 +225,7 @@ void SceneDrawer::drawMaps(const settings::State& state, const Moment& moment,
     }
     return;
   }
+  checkMapBytes(state, frame);
   mapsKey_.clear(); // of an attempt that fails
   surfacesKey_.clear();
   shadowMaps_.clear();

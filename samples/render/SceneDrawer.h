@@ -3,6 +3,7 @@
 
 #include "VolumeShadows.h"
 
+#include <cstdint>
 #include <gl/Context.h>
 #include <gl/RenderTargets.h>
 #include <gl/SceneRenderer.h>
@@ -51,6 +52,9 @@ public:
   static tyndall::Camera cameraOf(const host::Scene& scene, const settings::State& state,
                                   const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes);
 
+  /// Shadow and glass maps of more bytes are refused.
+  std::uint64_t mostMapBytes = ~0ULL;
+
   const host::Scene& scene() const { return scene_; }
   const host::Scene& boxes() const { return boxes_; }           ///< host::boxesOf(scene())
   bool hasVolumes() const;                                      ///< smoke or strands
@@ -68,6 +72,7 @@ private:
   std::vector<double> mapsKeyOf(const settings::State& state, const Moment& moment,
                                 const std::vector<glm::dmat4>& worldFromNode,
                                 const std::vector<tyndall::Light>& lights) const;
+  void checkMapBytes(const settings::State& state, const tyndall::Frame& frame) const;
   void setVolumes(const settings::State& state, const Moment& moment, const std::vector<glm::dmat4>& worldFromNode);
   void drawMaps(const settings::State& state, const Moment& moment, const std::vector<glm::dmat4>& worldFromNode,
                 tyndall::Frame& frame);

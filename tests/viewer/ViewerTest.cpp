@@ -188,6 +188,32 @@ TEST_CASE("a light may become one of any kind, whatever its fields are") {
   }
 }
 
+TEST_CASE("what would take all of a machine's memory is refused, and the picture stays") {
+  tests::ViewerRig rig(1500, 1000);
+  rig.load("projector");
+  rig.runUntil([&] { return rig.last == Activity::Drew; });
+  const settings::State start = rig.viewer.state();
+  const auto refusalOf = [&](const settings::State& state) {
+    rig.viewer.edit("large", state);
+    rig.runUntil([&] { return rig.last == Activity::Idle; });
+    const std::string error = rig.error();
+    rig.viewer.undo();
+    return error;
+  };
+  settings::State state = start;
+  state.supersample = 8;
+  CHECK_THAT(refusalOf(state), Catch::Contains("picture.supersample, msaa: 12000x8000 with 1 samples a pixel"));
+  state = start;
+  state.lights.emplace(16);
+  for (settings::StateLight& light : *state.lights) {
+    light.light.kind = tyndall::LightKind::Point;
+    light.light.position = {0, 1, 0};
+  }
+  state.shadowSize = 16384;
+  CHECK_THAT(refusalOf(state), Catch::Contains("maps.shadowSize: 16384 makes "));
+  CHECK(rig.viewer.first().width() > 0);
+}
+
 TEST_CASE("smoke's density and the width of strands are a person's to set") {
   for (const char* name : {"censer", "hair"}) {
     tests::ViewerRig rig;

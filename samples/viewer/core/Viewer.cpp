@@ -11,6 +11,8 @@ namespace viewer {
 
 namespace {
 
+constexpr std::uint64_t kMostMapBytes = 2ULL << 30;
+
 /// How far in front of a camera its target is to be: as far as the scene's middle, if that is ahead.
 double distanceToMiddle(const tyndall::Camera& camera, const host::Bounds& bounds) {
   const LookAt near = lookAtOf(camera, 1);
@@ -129,6 +131,7 @@ void Viewer::takeScene(SceneLoader::Result result) {
     if (!state.lookAt && !state.camera && host::cameraNodes(drawer->scene()).empty())
       state.lookAt = madeUpView(*drawer, state, notes);
     drawer_ = std::move(drawer);
+    drawer_->mostMapBytes = kMostMapBytes;
     notes_ = notes;
     history_.reset(state);
     duration_ = durationOf(drawer_->scene());

@@ -119,7 +119,12 @@ Activity Viewer::proceed(double now) {
 }
 
 void Viewer::prepareTargets(const settings::State& state) {
+  constexpr double kMostSamples = 36e6; // some 3 GiB, with all that is made of them
   const int width = renderedWidth(state), height = renderedHeight(state);
+  const double samples = static_cast<double>(width) * height * state.msaa;
+  if (samples > kMostSamples)
+    throw host::Error("picture.supersample, msaa: " + std::to_string(width) + "x" + std::to_string(height) + " with " +
+                      std::to_string(state.msaa) + " samples a pixel: the viewer draws at most 36 million samples");
   const bool isSized = surfaces_ && surfaces_->width() == width && surfaces_->height() == height;
   if (isSized && samples_ == state.msaa) return;
   samples_ = state.msaa;
