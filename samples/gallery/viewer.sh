@@ -15,13 +15,13 @@ work=out/gallery/viewer
 rm -rf "$work"
 mkdir -p "$work"
 cat >"$work/start.json" <<'END'
-{"version": 1, "scene": "../../../build/scenes/nave-glass.glb", "maps": {"shadowSize": 2048}, "picture": {"exposureStops": 0.4}}
+{"version": 1, "scene": "../../../build/scenes/stage.glb", "profile": "balanced", "maps": {"shadowSize": 1024}}
 END
 XDG_CONFIG_HOME="$work" build/bin/tyndall-viewer "$work/start.json" &
 viewer=$!
 trap 'kill $viewer' EXIT
 window=$(xdotool search --sync --onlyvisible --name '^Tyndall viewer$' | head -1)
-xdotool windowfocus "$window" mousemove 700 560
+xdotool windowfocus "$window" mousemove 640 300
 
 # glide X Y: the mouse, in steps that a hand would make.
 glide() {
@@ -42,19 +42,21 @@ sleep 15 # loaded, whole and measured
 ffmpeg -v error -y -f x11grab -framerate 10 -video_size 1280x720 -i "$DISPLAY" -frames:v 1 "$work/still.png"
 ffmpeg -v error -y -f x11grab -framerate 10 -video_size 1280x720 -i "$DISPLAY" -t 10 "$work/frame-%04d.png" &
 film=$!
-sleep 0.6
-drag 620 520
-sleep 0.8
+glide 608 230
+drag 690 200
+sleep 0.5
+glide 900 560
+drag 868 552
 glide 129 18
 xdotool click 1
-glide 250 62
-drag 215 62
-sleep 0.8
+glide 253 62
+drag 238 62
+sleep 0.3
 glide 298 18
 xdotool click 1
 glide 17 41
 xdotool click 1
-sleep 1.2
+sleep 0.5
 glide 830 620
 drag 560 620
 wait $film

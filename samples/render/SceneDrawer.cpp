@@ -48,15 +48,13 @@ void append(std::vector<double>& key, const Numbers& numbers) {
 
 void append(std::vector<double>& key, const glm::dmat4& matrix) { append(key, host::toMat4(matrix)); }
 
-/// All that a light's maps depend on but the scene.
-void appendMapped(std::vector<double>& key, const tyndall::Light& light) {
+/// All that a light's maps show, but the scene.
+void appendCause(std::vector<double>& key, const tyndall::Light& light) {
   append(key, light.position);
   append(key, light.direction);
   append(key, std::initializer_list<double>{static_cast<double>(light.kind), light.range, light.outerConeAngle,
                                             static_cast<double>(light.shadow.clipDepth),
-                                            static_cast<double>(light.shadow.views.size())});
-  for (const tyndall::ShadowView& view : light.shadow.views)
-    append(key, view.clipFromWorld);
+                                            light.shadow.views.empty() ? 0.0 : 1.0});
 }
 
 /// And its light on surfaces.
@@ -101,7 +99,7 @@ void SceneDrawer::makeVolumeShadows(const settings::State& state, host::Notes& n
   if (!hasVolumes() || isMade) return;
   avsm_ = {state.avsm, state.avsmSize, state.avsmNodes};
   volumeShadows_.reset();
-  mapsKey_.clear();
+  volumesKey_.clear();
   if (!state.avsm) return;
   constexpr int kNeeded = 43;
   const int version = context_.glVersion();
@@ -173,17 +171,24 @@ void SceneDrawer::fitViews(const settings::State& state, const Moment& moment,
   }
 }
 
-std::vector<double> SceneDrawer::mapsKeyOf(const settings::State& state, const Moment& moment,
-                                           const std::vector<glm::dmat4>& worldFromNode,
-                                           const std::vector<tyndall::Light>& lights) const {
-  std::vector<double> key = {static_cast<double>(state.shadowSize), static_cast<double>(lights.size())};
-  if (hasVolumes())
-    append(key, std::initializer_list<double>{moment.seconds, state.smokeDensity, state.strandWidth,
-                                              state.strandOpacity, double(moment.isCoarse)});
+/// Whether the light's maps are those that were drawn last: as they are wanted, or, while things move, of a lamp that
+/// stands still, as they were, unless the effect would take long for so many texels.
+bool SceneDrawer::isMapped(const MappedLight& last, const MappedLight& now, const Moment& moment) {
+  if (last.cause != now.cause) return false;
+  if (last.size == now.size && last.views == now.views) return true;
+  constexpr int kMostTimes = 4;
+  const bool hasEnough = last.size >= now.size && last.size <= kMostTimes * now.size;
+  return moment.isCoarse && now.light.kind != tyndall::LightKind::Directional && hasEnough;
+}
+
+std::vector<double> SceneDrawer::volumesKeyOf(const settings::State& state, const Moment& moment,
+                                              const std::vector<glm::dmat4>& worldFromNode) const {
+  std::vector<double> key = {
+      1, moment.seconds, state.smokeDensity, state.strandWidth, state.strandOpacity, double(moment.isCoarse)};
   for (const glm::dmat4& matrix : worldFromNode)
     append(key, matrix);
-  for (const tyndall::Light& light : lights)
-    appendMapped(key, light);
+  for (const MappedLight& light : mapped_)
+    key.insert(key.end(), light.views.begin(), light.views.end());
   return key;
 }
 
@@ -216,30 +221,47 @@ void SceneDrawer::setVolumes(const settings::State& state, const Moment& moment,
 
 void SceneDrawer::drawMaps(const settings::State& state, const Moment& moment,
                            const std::vector<glm::dmat4>& worldFromNode, tyndall::Frame& frame) {
-  std::vector<double> key = mapsKeyOf(state, moment, worldFromNode, frame.lights);
-  if (key == mapsKey_) {
-    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
-      frame.lights[i].shadow = mappedLights_[i].shadow;
-      frame.lights[i].glass = mappedLights_[i].glass;
-      frame.lights[i].curves = mappedLights_[i].curves;
-    }
-    return;
-  }
   checkMapBytes(state, frame);
-  mapsKey_.clear(); // of an attempt that fails
-  surfacesKey_.clear();
-  shadowMaps_.clear();
-  for (tyndall::Light& light : frame.lights) {
-    if (light.shadow.views.empty()) continue;
-    shadowMaps_.push_back(renderer_->renderShadowMap(worldFromNode, light, state.shadowSize));
-    shadowMaps_.back().attachTo(light);
+  mapped_.resize(frame.lights.size());
+  for (std::size_t i = 0; i < mapped_.size(); ++i) {
+    tyndall::Light& light = frame.lights[i];
+    MappedLight now;
+    now.light = light;
+    now.size = state.shadowSize;
+    appendCause(now.cause, light);
+    for (const glm::dmat4& matrix : worldFromNode)
+      append(now.cause, matrix);
+    for (const tyndall::ShadowView& view : light.shadow.views)
+      append(now.views, view.clipFromWorld);
+    if (!isMapped(mapped_[i], now, moment)) {
+      surfacesKey_.clear();
+      mapped_[i] = {}; // of an attempt that fails
+      if (!light.shadow.views.empty()) {
+        now.textures = renderer_->renderShadowMap(worldFromNode, light, state.shadowSize);
+        now.textures.attachTo(now.light);
+      }
+      mapped_[i] = std::move(now);
+    }
+    light.shadow = mapped_[i].light.shadow;
+    light.glass = mapped_[i].light.glass;
   }
-  if (hasVolumes()) {
+  if (hasVolumes()) drawVolumes(state, moment, worldFromNode, frame);
+}
+
+void SceneDrawer::drawVolumes(const settings::State& state, const Moment& moment,
+                              const std::vector<glm::dmat4>& worldFromNode, tyndall::Frame& frame) {
+  std::vector<double> key = volumesKeyOf(state, moment, worldFromNode);
+  if (key != volumesKey_) {
+    volumesKey_.clear();
+    surfacesKey_.clear();
     setVolumes(state, moment, worldFromNode);
     if (volumeShadows_) volumeShadows_->update(*renderer_, frame.lights);
+    for (std::size_t i = 0; i < mapped_.size(); ++i)
+      mapped_[i].light.curves = frame.lights[i].curves;
+    volumesKey_ = std::move(key);
   }
-  mappedLights_ = frame.lights;
-  mapsKey_ = std::move(key);
+  for (std::size_t i = 0; i < mapped_.size(); ++i)
+    frame.lights[i].curves = mapped_[i].light.curves;
 }
 
 void SceneDrawer::drawSurfaces(const std::vector<glm::dmat4>& worldFromNode, const glm::vec3& sky,

@@ -69,9 +69,19 @@ private:
   const host::Scene& fittedTo(const Moment& moment) const { return moment.isCoarse ? boxes_ : scene_; }
   void fitViews(const settings::State& state, const Moment& moment, const std::vector<glm::dmat4>& worldFromNode,
                 tyndall::Frame& frame, host::Notes& notes) const;
-  std::vector<double> mapsKeyOf(const settings::State& state, const Moment& moment,
-                                const std::vector<glm::dmat4>& worldFromNode,
-                                const std::vector<tyndall::Light>& lights) const;
+  /// A light with its maps as they were drawn.
+  struct MappedLight {
+    std::vector<double> cause; ///< what they show
+    std::vector<double> views; ///< how: the matrices
+    int size = 0;              ///< texels per side
+    host::ShadowMapTextures textures;
+    tyndall::Light light;
+  };
+  static bool isMapped(const MappedLight& last, const MappedLight& now, const Moment& moment);
+  std::vector<double> volumesKeyOf(const settings::State& state, const Moment& moment,
+                                   const std::vector<glm::dmat4>& worldFromNode) const;
+  void drawVolumes(const settings::State& state, const Moment& moment, const std::vector<glm::dmat4>& worldFromNode,
+                   tyndall::Frame& frame);
   void checkMapBytes(const settings::State& state, const tyndall::Frame& frame) const;
   void setVolumes(const settings::State& state, const Moment& moment, const std::vector<glm::dmat4>& worldFromNode);
   void drawMaps(const settings::State& state, const Moment& moment, const std::vector<glm::dmat4>& worldFromNode,
@@ -91,14 +101,13 @@ private:
   const host::Context& context_;
   host::Scene scene_, boxes_;
   std::unique_ptr<host::SceneRenderer> renderer_;
-  std::vector<host::ShadowMapTextures> shadowMaps_;
   std::unique_ptr<host::ShadowLayout> shadowLayout_; ///< none: the maps are the effect's as they are
   host::MapForm mapForm_;                            ///< of shadowLayout_
   std::vector<host::LaidOutMaps> laidOutMaps_;
-  std::vector<double> skyKey_, mapsKey_, surfacesKey_; ///< all that they were made of; empty: nothing was
+  std::vector<double> skyKey_, volumesKey_, surfacesKey_; ///< all that they were made of; empty: nothing was
   glm::vec3 sky_{0};
   host::Notes skyNotes_;
-  std::vector<tyndall::Light> mappedLights_;     ///< with the maps as they were drawn
+  std::vector<MappedLight> mapped_;              ///< of the last frame
   std::unique_ptr<VolumeShadows> volumeShadows_; ///< none without smoke and strands, or where they cast no shadow
   Avsm avsm_;                                    ///< that they were made with
   std::vector<host::Bounds> meshBounds_;

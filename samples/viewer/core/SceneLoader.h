@@ -25,6 +25,7 @@ public:
   void cancel();
 
   bool isLoading() const { return thread_.joinable(); }
+  bool isDone() const { return isDone_ && thread_.joinable(); } ///< take() has something
   const std::filesystem::path& file() const { return file_; }
   std::string stage() const; ///< what it does
   double share() const { return share_; }

@@ -13,6 +13,11 @@ namespace {
 
 constexpr std::uint64_t kMostMapBytes = 2ULL << 30;
 
+void requireCamera(const settings::State& state, const render::SceneDrawer& drawer, const std::string& where) {
+  if (state.camera && *state.camera >= static_cast<int>(host::cameraNodes(drawer.scene()).size()))
+    throw host::Error(where + ": camera " + std::to_string(*state.camera) + " is not there");
+}
+
 /// How far in front of a camera its target is to be: as far as the scene's middle, if that is ahead.
 double distanceToMiddle(const tyndall::Camera& camera, const host::Bounds& bounds) {
   const LookAt near = lookAtOf(camera, 1);
@@ -71,6 +76,8 @@ void Viewer::openState(const std::filesystem::path& file) {
     settings::State state = settings::loadState(file);
     state.width = history_.state().width;
     state.height = history_.state().height;
+    if (const std::string problem = problemIn(state); !problem.empty())
+      throw host::Error(host::printable(file.string()) + ": " + problem);
     const bool isOfScene = scene() && state.scene.lexically_normal() == history_.state().scene.lexically_normal();
     if (!isOfScene && !state.scene.empty()) {
       loader_.start(state.scene);
@@ -78,9 +85,11 @@ void Viewer::openState(const std::filesystem::path& file) {
       return;
     }
     state.scene = history_.state().scene;
+    if (drawer_) requireCamera(state, *drawer_, host::printable(file.string()));
     history_.endEdit();
     history_.edit("load " + host::printable(file.filename().string()), state);
     history_.endEdit();
+    isEdited_ = true;
     changed();
     say("loaded " + host::printable(file.string()));
   } catch (const host::Error& error) {
@@ -88,8 +97,19 @@ void Viewer::openState(const std::filesystem::path& file) {
   }
 }
 
+void Viewer::requireOwnFile(const std::filesystem::path& file) const {
+  if (!drawer_) return;
+  std::error_code none;
+  for (const std::filesystem::path& read : drawer_->scene().files)
+    if (std::filesystem::equivalent(read, file, none))
+      throw host::Error(host::printable(file.string()) + ": is a file of the scene");
+}
+
 void Viewer::saveState(const std::filesystem::path& file) {
   try {
+    requireOwnFile(file);
+    if (file.extension() != ".json")
+      throw host::Error(host::printable(file.string()) + ": a state's name must end in .json");
     settings::saveState(file, history_.state());
     say("saved " + host::printable(file.string()));
   } catch (const host::Error& error) {
@@ -122,9 +142,7 @@ void Viewer::takeScene(SceneLoader::Result result) {
     }
     host::Notes notes = result.scene->notes;
     auto drawer = std::make_unique<render::SceneDrawer>(std::move(*result.scene), context_, state, notes);
-    if (state.camera && *state.camera >= static_cast<int>(host::cameraNodes(drawer->scene()).size()))
-      throw host::Error(host::printable(result.file.string()) + ": camera " + std::to_string(*state.camera) +
-                        " is not there");
+    requireCamera(state, *drawer, host::printable(result.file.string()));
     settings::State withoutMedium = state;
     withoutMedium.medium.reset();
     sceneMedium_ = drawer->mediumOf(withoutMedium, notes);
@@ -140,6 +158,7 @@ void Viewer::takeScene(SceneLoader::Result result) {
     exposure_.reset();
     frameTimes_.clear();
     drawn_ = Drawn::Nothing;
+    isEdited_ = true;
     changed();
     say("loaded " + host::printable(result.file.string()));
   } catch (const host::Error& error) {
@@ -151,16 +170,19 @@ void Viewer::takeScene(SceneLoader::Result result) {
 void Viewer::edit(const std::string& what, const settings::State& state) {
   if (const std::string problem = problemIn(state); !problem.empty()) return say(problem, true);
   history_.edit(what, state);
+  isEdited_ = true;
   changed();
 }
 
 void Viewer::undo() {
   history_.undo();
+  isEdited_ = true;
   changed();
 }
 
 void Viewer::redo() {
   history_.redo();
+  isEdited_ = true;
   changed();
 }
 
@@ -204,6 +226,7 @@ void Viewer::setView(const LookAt& view) {
 
 void Viewer::useSceneCamera(int index) {
   if (!drawer_ || index < 0 || index >= static_cast<int>(host::cameraNodes(drawer_->scene()).size())) return;
+  if (!isRecording_) pathSeconds_ = -1;
   settings::State state = history_.state();
   state.lookAt.reset();
   state.camera = index;

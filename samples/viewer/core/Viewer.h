@@ -28,7 +28,7 @@ struct Message {
 /// What update() did.
 enum class Activity {
   Idle,    ///< nothing, and there is nothing to do until something is changed
-  Waiting, ///< a scene is being loaded
+  Waiting, ///< a scene is being loaded, or a path recorded
   Drew,    ///< another picture is shown, or a part of one
   Measured ///< a part of the error
 };
@@ -145,6 +145,7 @@ private:
   void makeWays();
   tyndall::Camera sceneCamera(const std::vector<glm::dmat4>& pose) const;
   render::Picture readPicture() const;
+  void requireOwnFile(const std::filesystem::path& file) const;
   static LookAt madeUpView(const render::SceneDrawer& drawer, const settings::State& state, host::Notes& notes);
   void takeScene(SceneLoader::Result result);
   void advance(double passed);
@@ -186,8 +187,9 @@ private:
   double duration_ = 0;
   double now_ = 0, lastChange_ = -1;
   Drawn drawn_ = Drawn::Nothing;
-  bool isDirty_ = false; ///< changed since it was drawn
-  bool isShown_ = true;  ///< as it was drawn
+  bool isDirty_ = false;  ///< changed since it was drawn
+  bool isEdited_ = false; ///< more than camera and time: the effect keeps nothing of what it drew
+  bool isShown_ = true;   ///< as it was drawn
   bool isRecording_ = false;
   std::vector<settings::PathPoint> recorded_; ///< so far
   double pathSeconds_ = -1; ///< from the begin of the path that is taken or recorded; negative: none is

@@ -66,14 +66,11 @@ bool Viewer::goesOn() {
     lastPause_ = std::chrono::steady_clock::now();
   }
   const bool isPlaying = (playback.isPlaying && duration_ > 0) || (isOnPath() && !isRecording_);
-  return !isDirty_ && !isAbandoned_ && !isPlaying;
+  return !isDirty_ && !isAbandoned_ && !isPlaying && !loader_.isDone();
 }
 
 void Viewer::advance(double passed) {
-  if (isRecording_)
-    addToPath(passed);
-  else if (isOnPath())
-    followPath(passed);
+  if (isOnPath() && !isRecording_) followPath(passed);
   if (!playback.isPlaying || duration_ <= 0) return;
   const double seconds = playback.advanced(state().seconds, passed, duration_);
   if (seconds == state().seconds) return;
@@ -82,10 +79,11 @@ void Viewer::advance(double passed) {
 
 Activity Viewer::update(double now) {
   constexpr double kLongest = 0.25; // of what passes at once: a picture that took long makes no animation jump
-  const double passed = std::min(std::max(now - now_, 0.0), kLongest);
+  const double waited = now_ == 0 ? 0 : std::max(now - now_, 0.0), passed = std::min(waited, kLongest);
   now_ = now;
   if (std::optional<SceneLoader::Result> result = loader_.take()) takeScene(std::move(*result));
   if (!drawer_) return loader_.isLoading() ? Activity::Waiting : Activity::Idle;
+  if (isRecording_) addToPath(waited);
   advance(passed);
   try {
     const Activity activity = proceed(now);
@@ -102,7 +100,7 @@ Activity Viewer::update(double now) {
 }
 
 Activity Viewer::proceed(double now) {
-  const Activity rest = loader_.isLoading() ? Activity::Waiting : Activity::Idle;
+  const Activity rest = loader_.isLoading() || isRecording_ ? Activity::Waiting : Activity::Idle;
   if (hasFailed_) return rest;
   if (isMoving(now)) {
     if (!isDirty_) return Activity::Waiting;
@@ -142,7 +140,7 @@ void Viewer::drawScene(const settings::State& state, bool isCoarse) {
   prepareTargets(state);
   settings::State drawn = state;
   drawn.reuse.changes = tyndall::Changes::Objects;
-  const std::uint64_t number = frame_.reuse.frame;
+  const std::uint64_t number = frame_.reuse.frame + (std::exchange(isEdited_, false) ? 1 : 0);
   frame_.reuse = drawn.reuse;
   frame_.reuse.frame = number;
   frame_.medium = state.medium ? *state.medium : sceneMedium_;
@@ -159,7 +157,7 @@ void Viewer::drawScene(const settings::State& state, bool isCoarse) {
 bool Viewer::drawWay(Way& way, const tyndall::Settings& settings) {
   const double before = pauses_;
   const bool isWhole = way.draw(*surfaces_, frame_, drawnSettings(settings));
-  way.leaveOut(pauses_ - before);
+  if (isWhole) way.leaveOut(pauses_ - before);
   return isWhole;
 }
 
@@ -328,10 +326,12 @@ void Viewer::savePicture(const std::filesystem::path& file) {
   try {
     if (!drawer_) throw host::Error("there is no picture to save: no scene is loaded");
     render::requirePictureName(file);
+    requireOwnFile(file);
     const bool isOwnView = first_->width() > 0 && first_->frame().settings.debugView == state().settings.debugView;
     if (!isSettled() || !isOwnView) {
       drawScene(state(), false);
-      drawWay(*first_, state().settings);
+      first_->draw(*surfaces_, frame_, state().settings); // its difference, too, as the effect draws it
+      updateExposure();
       changed();
     }
     render::Options options;

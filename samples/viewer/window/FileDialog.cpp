@@ -26,6 +26,7 @@ void FileDialog::open(const std::string& title, const std::filesystem::path& fol
   isSaving_ = !name.empty();
   isOpen_ = isNew_ = true;
   isCancelled_ = false;
+  confirmed_.clear();
   enter(folder.empty() ? std::filesystem::path(".") : folder);
 }
 
@@ -68,6 +69,21 @@ bool FileDialog::drawList() {
   return isChosen;
 }
 
+/// The file of that name. One that would be replaced is asked for twice.
+std::optional<std::filesystem::path> FileDialog::choose() {
+  std::filesystem::path file = folder_ / name_; // an absolute name stays one
+  const std::string ending = lowerCase(file.extension().string());
+  if (isSaving_ && std::find(endings_.begin(), endings_.end(), ending) == endings_.end()) file += endings_.front();
+  std::error_code none;
+  if (isSaving_ && file != confirmed_ && std::filesystem::exists(file, none)) {
+    confirmed_ = file;
+    problem_ = file.filename().string() + " is there: Save again to replace it";
+    return std::nullopt;
+  }
+  isOpen_ = false;
+  return file;
+}
+
 std::optional<std::filesystem::path> FileDialog::draw() {
   if (!isOpen_) return std::nullopt;
   if (isNew_) ImGui::OpenPopup(title_.c_str());
@@ -93,10 +109,7 @@ std::optional<std::filesystem::path> FileDialog::draw() {
   ImGui::EndDisabled();
   ImGui::SameLine();
   if (ImGui::Button("Cancel") || isCancelled_) isOpen_ = false;
-  if (isDone && !name_.empty()) {
-    chosen = folder_ / name_; // an absolute name stays one
-    isOpen_ = false;
-  }
+  if (isDone && !name_.empty()) chosen = choose();
   if (!isOpen_) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
   return chosen;

@@ -22,13 +22,15 @@ public:
 private:
   void enter(const std::filesystem::path& folder);
   bool drawList();
+  std::optional<std::filesystem::path> choose();
 
   std::string title_;
   std::filesystem::path folder_;
   std::vector<std::string> endings_;
   std::vector<std::string> folders_, files_;
   std::string name_;
-  std::string problem_; ///< why the folder cannot be listed
+  std::string problem_;             ///< why the folder cannot be listed, or the file not be taken
+  std::filesystem::path confirmed_; ///< is to be replaced if it is chosen again
   bool isOpen_ = false, isNew_ = false, isCancelled_ = false, isSaving_ = false;
 };
 

@@ -216,7 +216,8 @@ bool dragLights(Session& session, const Area& area) {
   if (!isDragged || (moved.x == 0 && moved.y == 0)) return under || session.dragged;
   settings::StateLight& light = lights[static_cast<std::size_t>(session.dragged->light)];
   if (!placeOf(session.dragged->what, light.light, view)) return true;
-  light.follows = -1;
+  const Grip::What what = session.dragged->what;
+  if (what == Grip::What::Place || what == Grip::What::Target) light.follows = -1;
   drag(session.dragged->what, light.light, view, area, mouse);
   settings::State state = viewer.state();
   state.lights = lights;

@@ -66,11 +66,20 @@ void drawMaps(Viewer& viewer, const char* name, const char* group, const setting
 } // namespace
 
 std::vector<settings::StateLight> editableLights(const Viewer& viewer) {
-  if (const auto& lights = viewer.state().lights) return *lights;
   if (!viewer.scene()) return {};
   host::Notes ofNoConcern;
   const std::vector<glm::dmat4> pose = host::poseAt(*viewer.scene(), viewer.state().seconds);
-  std::vector<settings::StateLight> lights = settings::following(host::makeLights(*viewer.scene(), pose, ofNoConcern));
+  const std::vector<tyndall::Light> scene = host::makeLights(*viewer.scene(), pose, ofNoConcern);
+  if (const auto& own = viewer.state().lights) {
+    std::vector<settings::StateLight> lights = *own;
+    for (settings::StateLight& light : lights) {
+      if (light.follows < 0 || static_cast<std::size_t>(light.follows) >= scene.size()) continue;
+      light.light.position = scene[static_cast<std::size_t>(light.follows)].position;
+      light.light.direction = scene[static_cast<std::size_t>(light.follows)].direction;
+    }
+    return lights;
+  }
+  std::vector<settings::StateLight> lights = settings::following(scene);
   for (settings::StateLight& light : lights)
     if (light.light.kind == tyndall::LightKind::Directional) light.light.cascadeFade = viewer.state().cascadeFade;
   return lights;

@@ -73,7 +73,7 @@ bool editNumber(const Row& row, Value& value) {
   }
   if (!isChanged) return false;
   if (row.type == Type::Whole) number = std::round(number / row.rule.multipleOf) * row.rule.multipleOf;
-  number = std::clamp(number, std::min(row.rule.low, number), std::max(row.rule.high, number));
+  number = std::clamp(number, row.rule.low, row.rule.high); // one that was typed
   value = number;
   return true;
 }

@@ -182,11 +182,7 @@ bool Window::run(const std::filesystem::path& file) {
     blink();
     if (const auto picture = std::exchange(session_->pictureToSave, std::nullopt)) viewer_->savePicture(*picture);
     const Activity activity = viewer_->update(glfwGetTime());
-    if (std::optional<Message> message = viewer_->takeMessage()) {
-      session_->message = *message;
-      if (reports_ && message->isError) std::fprintf(stderr, "said: %s\n", message->text.c_str());
-      wake();
-    }
+    takeMessage();
     reportErrors();
     reportRest(activity == Activity::Idle);
     const bool isDue = activity == Activity::Drew || glfwGetTime() - lastDrawn_ > kMeasuredPause;
@@ -196,8 +192,9 @@ bool Window::run(const std::filesystem::path& file) {
   return !hasErrors_;
 }
 
-// For who watches from outside.
+// What has come to an end is shown, and told to who watches from outside.
 void Window::reportRest(bool rests) {
+  if (rests != rests_) wake();
   if (reports_ && rests != rests_) std::fputs(rests ? "at rest\n" : "busy\n", stderr);
   rests_ = rests;
 }
@@ -218,7 +215,16 @@ void Window::turn() {
   if (glfwWindowShouldClose(window_)) return viewer_->abandon();
   navigate();
   blink();
+  takeMessage();
   drawInterface();
+}
+
+void Window::takeMessage() {
+  const std::optional<Message> message = viewer_->takeMessage();
+  if (!message) return;
+  session_->message = *message;
+  if (reports_ && message->isError) std::fprintf(stderr, "said: %s\n", message->text.c_str());
+  wake();
 }
 
 // Nothing is done at rest until something happens.

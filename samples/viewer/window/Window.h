@@ -25,6 +25,7 @@ public:
 
 private:
   void turn();
+  void takeMessage();
   void reportErrors();
   void reportRest(bool rests);
   void setScale(float scale);
