@@ -2,6 +2,8 @@
 #include "../settings/RandomState.h"
 #include "ViewerRig.h"
 
+#include <algorithm>
+#include <fstream>
 #include <gl/ReadBack.h>
 #include <scene/Error.h>
 #include <scene/ImageFile.h>
@@ -166,6 +168,87 @@ TEST_CASE("a camera's path is recorded, kept in the state, and taken again") {
   rig.step();
   rig.viewer.setView(start); // whoever moves the camera has it
   CHECK_FALSE(rig.viewer.isOnPath());
+}
+
+TEST_CASE("a path may rest, and a scene's camera leaves it") {
+  tests::ViewerRig rig(32, 18);
+  rig.load("projector");
+  rig.settle();
+  rig.viewer.record(true);
+  rig.viewer.setView(viewer::orbited(rig.viewer.view(), 0.2, 0));
+  rig.step();
+  for (int i = 0; i < 10; ++i) {
+    rig.viewer.update(rig.now += 3); // as a window that waits
+    CHECK(rig.viewer.isRecording());
+  }
+  rig.viewer.record(false);
+  CHECK(rig.viewer.state().path.back().seconds > 29);
+  rig.viewer.playPath(true);
+  rig.step();
+  rig.viewer.useSceneCamera(0);
+  CHECK_FALSE(rig.viewer.isOnPath());
+  CHECK(rig.viewer.state().camera == 0);
+}
+
+TEST_CASE("a picture is saved as tyndall-render draws its state, differences and what has just been lit, too") {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  tests::ViewerRig rig;
+  rig.load("projector");
+  rig.settle();
+  settings::State state = rig.viewer.state();
+  state.settings.debugView = tyndall::DebugView::Difference;
+  rig.viewer.edit("view", state);
+  rig.settle();
+  rig.viewer.savePicture(folder / "tyndall-difference.exr");
+  CHECK(rig.error().empty());
+  const host::Image image = host::readExr(folder / "tyndall-difference.exr");
+  const std::vector<float>& red = *image.find("R");
+  const auto grey = std::count_if(red.begin(), red.end(), [](float r) { return std::abs(r - 0.5F) < 0.3F; });
+  CHECK(static_cast<double>(grey) > 0.8 * static_cast<double>(red.size())); // the composite is mostly dark
+  rig.viewer.undo();
+  rig.settle();
+  const double stops = rig.viewer.exposureStops();
+  state = rig.viewer.state();
+  state.lights = settings::following(rig.viewer.first().frame().lights);
+  for (settings::StateLight& light : *state.lights)
+    for (float& channel : light.light.colour)
+      channel *= 64;
+  rig.viewer.edit("light", state);
+  rig.viewer.savePicture(folder / "tyndall-bright.png"); // before it is drawn
+  CHECK(rig.viewer.exposureStops() < stops - 3);
+  std::filesystem::remove(folder / "tyndall-difference.exr");
+  std::filesystem::remove(folder / "tyndall-bright.png");
+}
+
+TEST_CASE("no state and no picture is written over what the scene is read from") {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "tyndall-own-files";
+  std::filesystem::create_directories(folder);
+  const std::filesystem::path scene = folder / "scene.json"; // which a glTF may be called
+  std::filesystem::copy_file(tests::sceneFile("projector"), scene, std::filesystem::copy_options::overwrite_existing);
+  tests::ViewerRig rig;
+  rig.viewer.open(scene);
+  rig.runUntil([&] { return !rig.viewer.loader().isLoading(); });
+  REQUIRE(rig.viewer.scene());
+  static_cast<void>(rig.error());
+  rig.viewer.saveState(scene);
+  CHECK_THAT(rig.error(), Catch::Contains("is a file of the scene"));
+  CHECK(std::filesystem::file_size(scene) == std::filesystem::file_size(tests::sceneFile("projector")));
+  rig.viewer.saveState(folder / "state");
+  CHECK_THAT(rig.error(), Catch::Contains("a state's name must end in .json"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("a state for the scene that is shown is checked as one for another is") {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "tyndall-camera.json";
+  tests::ViewerRig rig;
+  rig.load("projector");
+  rig.settle();
+  const settings::State before = rig.viewer.state();
+  std::ofstream(file) << R"({"version": 1, "camera": {"scene": 99}})";
+  rig.viewer.openState(file);
+  CHECK_THAT(rig.error(), Catch::Contains("camera 99 is not there"));
+  CHECK(tests::differences(rig.viewer.state(), before) == std::vector<std::string>());
+  std::filesystem::remove(file);
 }
 
 TEST_CASE("a light may become one of any kind, whatever its fields are") {
