@@ -174,7 +174,7 @@ std::vector<Grip::What> gripsOf(bool isChosen) {
 
 } // namespace
 
-bool dragLights(Session& session, const Area& area) {
+bool dragLights(Session& session, const Area& area, bool mayGrip) {
   Viewer& viewer = session.viewer;
   if (!viewer.scene() || !session.hasHandles) return false;
   std::vector<settings::StateLight> lights = editableLights(viewer);
@@ -202,7 +202,7 @@ bool dragLights(Session& session, const Area& area) {
     }
   }
   list.PopClipRect();
-  if (!area.holds(mouse) || ImGui::GetIO().WantCaptureMouse) under.reset();
+  if (!mayGrip || !area.holds(mouse) || ImGui::GetIO().WantCaptureMouse) under.reset();
   if (under && !session.dragged) {
     const tyndall::Light& light = lights[static_cast<std::size_t>(under->light)].light;
     ImGui::SetTooltip("light %d: %s", under->light, nameOf(under->what, light));

@@ -30,7 +30,7 @@ void Window::drawPicture() {
                                              ImVec2(area.x + area.width, area.y + area.height), ImVec2(0, 1),
                                              ImVec2(1, 0));
   const bool isOnWipe = dragWipe(*session_, area);
-  const bool isOnLight = !isOnWipe && dragLights(*session_, area);
+  const bool isOnLight = dragLights(*session_, area, !isOnWipe);
   drawMagnifier(*session_, area);
   const ImGuiIO& io = ImGui::GetIO();
   if (ImGui::IsMouseReleased(ImGuiMouseButton_Left)) isHandled_ = false;

@@ -26,8 +26,8 @@ inline glm::dvec2 inPicture(const Area& area, const ImVec2& point) {
   return {(point.x - area.x) / area.width, 1 - (point.y - area.y) / area.height};
 }
 
-/// Draws the handles of lights and drags them (Handles.cpp); whether the mouse is on one, or drags one.
-bool dragLights(Session& session, const Area& area);
+/// Draws the handles of lights and, if it may, drags them (Handles.cpp); whether the mouse is on one, or drags one.
+bool dragLights(Session& session, const Area& area, bool mayGrip);
 /// The same for the edge between A and B.
 bool dragWipe(Session& session, const Area& area);
 /// Around the mouse, with the values of its pixel.
