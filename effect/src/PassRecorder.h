@@ -50,7 +50,7 @@ public:
 
   /// Between two bands of the pass that runs, each of which is timed by itself, too.
   void nextBand();
-  /// What went before it is no band's: waits, by PassTiming::Finish only, add nothing.
+  /// The band after nextBand() begins here, by PassTiming::Finish: what was done between adds nothing to it.
   void resume();
 
   /// Of the frame; wait for its queries.

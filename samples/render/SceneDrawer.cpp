@@ -187,8 +187,10 @@ std::vector<double> SceneDrawer::volumesKeyOf(const settings::State& state, cons
       1, moment.seconds, state.smokeDensity, state.strandWidth, state.strandOpacity, double(moment.isCoarse)};
   for (const glm::dmat4& matrix : worldFromNode)
     append(key, matrix);
-  for (const MappedLight& light : mapped_)
+  for (const MappedLight& light : mapped_) {
+    key.push_back(static_cast<double>(light.views.size()));
     key.insert(key.end(), light.views.begin(), light.views.end());
+  }
   return key;
 }
 
@@ -256,12 +258,13 @@ void SceneDrawer::drawVolumes(const settings::State& state, const Moment& moment
     surfacesKey_.clear();
     setVolumes(state, moment, worldFromNode);
     if (volumeShadows_) volumeShadows_->update(*renderer_, frame.lights);
-    for (std::size_t i = 0; i < mapped_.size(); ++i)
-      mapped_[i].light.curves = frame.lights[i].curves;
+    curves_.clear();
+    for (const tyndall::Light& light : frame.lights)
+      curves_.push_back(light.curves);
     volumesKey_ = std::move(key);
   }
-  for (std::size_t i = 0; i < mapped_.size(); ++i)
-    frame.lights[i].curves = mapped_[i].light.curves;
+  for (std::size_t i = 0; i < curves_.size(); ++i)
+    frame.lights[i].curves = curves_[i];
 }
 
 void SceneDrawer::drawSurfaces(const std::vector<glm::dmat4>& worldFromNode, const glm::vec3& sky,

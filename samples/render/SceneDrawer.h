@@ -108,6 +108,7 @@ private:
   glm::vec3 sky_{0};
   host::Notes skyNotes_;
   std::vector<MappedLight> mapped_;              ///< of the last frame
+  std::vector<tyndall::AvsmCurves> curves_;      ///< of its lights
   std::unique_ptr<VolumeShadows> volumeShadows_; ///< none without smoke and strands, or where they cast no shadow
   Avsm avsm_;                                    ///< that they were made with
   std::vector<host::Bounds> meshBounds_;

@@ -75,9 +75,9 @@ std::string ruleOf(const Row& row) {
 }
 
 std::string breachOf(const Row& row, const Value& value) {
-  std::string must = "must be " + ruleOf(row);
+  const auto must = [&row] { return "must be " + ruleOf(row); };
   if (value.count == 0 && row.rule.mayBeUnset) return {};
-  if (value.count != row.count()) return must;
+  if (value.count != row.count()) return must();
   bool isZero = true;
   for (int i = 0; i < value.count; ++i) {
     const double number = row.isFloat ? static_cast<double>(static_cast<float>(value[i])) : value[i];
@@ -85,10 +85,10 @@ std::string breachOf(const Row& row, const Value& value) {
     const bool holds =
         row.rule.holds(value[i]) && row.rule.holds(row.isFloat ? decimalOf(static_cast<float>(number)) : number);
     const bool isWhole = row.type != Type::Whole || value[i] == std::floor(value[i]);
-    if (!holds || !isWhole) return must;
+    if (!holds || !isWhole) return must();
     isZero = isZero && number == 0;
   }
-  if (row.type == Type::Direction && isZero) return must;
+  if (row.type == Type::Direction && isZero) return must();
   return {};
 }
 

@@ -69,19 +69,24 @@ std::string problemIn(const State& state) {
   return breach.empty() ? contradictionIn(state) : breach;
 }
 
+std::vector<StateLight> placed(std::vector<StateLight> lights, const std::vector<tyndall::Light>& scene) {
+  for (StateLight& light : lights) {
+    if (light.follows < 0 || static_cast<std::size_t>(light.follows) >= scene.size()) continue;
+    const tyndall::Light& followed = scene[static_cast<std::size_t>(light.follows)];
+    light.light.position = followed.position;
+    light.light.direction = followed.direction;
+  }
+  return lights;
+}
+
 std::vector<tyndall::Light> lightsOf(const std::vector<StateLight>& lights, const std::vector<tyndall::Light>& scene) {
   std::vector<tyndall::Light> shining;
-  for (const StateLight& one : lights) {
+  for (const StateLight& one : placed(lights, scene)) {
     if (!one.on) continue;
     shining.push_back(one.light);
-    if (one.light.kind != tyndall::LightKind::Directional) { // which alone has these
-      shining.back().cascadeFade = 0;
-      shining.back().boundary.enabled = false;
-    }
-    if (one.follows < 0 || static_cast<std::size_t>(one.follows) >= scene.size()) continue;
-    const tyndall::Light& followed = scene[static_cast<std::size_t>(one.follows)];
-    shining.back().position = followed.position;
-    shining.back().direction = followed.direction;
+    if (one.light.kind == tyndall::LightKind::Directional) continue; // which alone has these
+    shining.back().cascadeFade = 0;
+    shining.back().boundary.enabled = false;
   }
   return shining;
 }

@@ -84,6 +84,9 @@ std::string contradictionIn(const State& state);
 /// The same of fields that break their rules, too.
 std::string problemIn(const State& state);
 
+/// The lights where they are: those that follow one of the scene's at its place.
+std::vector<StateLight> placed(std::vector<StateLight> lights, const std::vector<tyndall::Light>& scene);
+
 /// The lights of a frame: those of the state, of which some follow the scene's.
 std::vector<tyndall::Light> lightsOf(const std::vector<StateLight>& lights, const std::vector<tyndall::Light>& scene);
 

@@ -414,6 +414,29 @@ TEST_CASE("a camera that the scene does not have is a message, and the view can 
   std::filesystem::remove(file);
 }
 
+TEST_CASE("smoke's shadows outlive another size of the shadow maps") {
+  tests::ViewerRig rig;
+  rig.load("censer");
+  const auto beFast = [&] { // as a GPU is: what moves is drawn at full quality
+    for (int i = 0; i < 100; ++i)
+      rig.viewer.quality.drew(1);
+    REQUIRE(rig.viewer.quality.level() == 0);
+  };
+  beFast();
+  rig.settle();
+  beFast();
+  const auto hasCurves = [&] {
+    const std::vector<tyndall::Light>& lights = rig.viewer.first().frame().lights;
+    return std::all_of(lights.begin(), lights.end(), [](const auto& light) { return light.curves.texture != 0; });
+  };
+  CHECK(hasCurves());
+  settings::State state = rig.viewer.state();
+  state.shadowSize = 128;
+  rig.viewer.edit("size", state);
+  rig.settle();
+  CHECK(hasCurves());
+}
+
 TEST_CASE("smoke's shadows follow their settings") {
   tests::ViewerRig rig;
   rig.load("smoke");

@@ -99,9 +99,9 @@ void Viewer::openState(const std::filesystem::path& file) {
 
 void Viewer::requireOwnFile(const std::filesystem::path& file) const {
   if (!drawer_) return;
-  std::error_code none;
+  const std::string identity = host::identityOf(file);
   for (const std::filesystem::path& read : drawer_->scene().files)
-    if (std::filesystem::equivalent(read, file, none))
+    if (host::identityOf(read) == identity)
       throw host::Error(host::printable(file.string()) + ": is a file of the scene");
 }
 
@@ -215,7 +215,7 @@ LookAt Viewer::view() const {
 }
 
 void Viewer::setView(const LookAt& view) {
-  if (!isRecording_) pathSeconds_ = -1;
+  if (isOnPath()) pathSeconds_ = -1;
   settings::State state = history_.state();
   state.lookAt = view;
   state.camera.reset();
@@ -226,7 +226,7 @@ void Viewer::setView(const LookAt& view) {
 
 void Viewer::useSceneCamera(int index) {
   if (!drawer_ || index < 0 || index >= static_cast<int>(host::cameraNodes(drawer_->scene()).size())) return;
-  if (!isRecording_) pathSeconds_ = -1;
+  if (isOnPath()) pathSeconds_ = -1;
   settings::State state = history_.state();
   state.lookAt.reset();
   state.camera = index;

@@ -55,7 +55,7 @@ public:
 
   const settings::State& state() const { return history_.state(); }
   const History& history() const { return history_; }
-  /// See History. A state that contradicts itself is not taken, and a message.
+  /// See History. A state that breaks a rule or contradicts itself is not taken, and a message.
   void edit(const std::string& what, const settings::State& state);
   void endEdit() { history_.endEdit(); }
   void undo();
@@ -76,7 +76,7 @@ public:
   double pathSeconds() const { return pathSeconds_; } ///< that were recorded, or played, so far
   /// The camera takes the path from its begin, once, or again and again as the playback says; until it is moved.
   void playPath(bool plays);
-  bool isOnPath() const { return pathSeconds_ >= 0; }
+  bool isOnPath() const { return pathSeconds_ >= 0 && !isRecording_; }
 
   /// How the state's two ways are shown, at once: up to where the first is, the second in its place, and what is full
   /// red or blue.
@@ -152,6 +152,7 @@ private:
   void followPath(double passed);
   void addToPath(double passed);
   void changed();
+  bool isPlaying() const; ///< an animation, or the path
   bool isMoving(double now) const;
   bool goesOn();
   void drawScene(const settings::State& state, bool isCoarse);

@@ -39,10 +39,9 @@ bool isSame(const tyndall::Tuning& a, const tyndall::Tuning& b) {
 
 } // namespace
 
-bool Viewer::isMoving(double now) const {
-  return isDirty_ || (playback.isPlaying && duration_ > 0) || (isOnPath() && !isRecording_) ||
-         now - lastChange_ < kRest;
-}
+bool Viewer::isPlaying() const { return (playback.isPlaying && duration_ > 0) || isOnPath(); }
+
+bool Viewer::isMoving(double now) const { return isDirty_ || isPlaying() || now - lastChange_ < kRest; }
 
 bool Viewer::isSettled() const { return drawn_ == Drawn::Full && !isDirty_; }
 
@@ -65,12 +64,11 @@ bool Viewer::goesOn() {
     pauses_ += millisecondsSince(start);
     lastPause_ = std::chrono::steady_clock::now();
   }
-  const bool isPlaying = (playback.isPlaying && duration_ > 0) || (isOnPath() && !isRecording_);
-  return !isDirty_ && !isAbandoned_ && !isPlaying && !loader_.isDone();
+  return !isDirty_ && !isAbandoned_ && !isPlaying() && !loader_.isDone();
 }
 
 void Viewer::advance(double passed) {
-  if (isOnPath() && !isRecording_) followPath(passed);
+  if (isOnPath()) followPath(passed);
   if (!playback.isPlaying || duration_ <= 0) return;
   const double seconds = playback.advanced(state().seconds, passed, duration_);
   if (seconds == state().seconds) return;

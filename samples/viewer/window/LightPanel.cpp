@@ -70,15 +70,7 @@ std::vector<settings::StateLight> editableLights(const Viewer& viewer) {
   host::Notes ofNoConcern;
   const std::vector<glm::dmat4> pose = host::poseAt(*viewer.scene(), viewer.state().seconds);
   const std::vector<tyndall::Light> scene = host::makeLights(*viewer.scene(), pose, ofNoConcern);
-  if (const auto& own = viewer.state().lights) {
-    std::vector<settings::StateLight> lights = *own;
-    for (settings::StateLight& light : lights) {
-      if (light.follows < 0 || static_cast<std::size_t>(light.follows) >= scene.size()) continue;
-      light.light.position = scene[static_cast<std::size_t>(light.follows)].position;
-      light.light.direction = scene[static_cast<std::size_t>(light.follows)].direction;
-    }
-    return lights;
-  }
+  if (const auto& own = viewer.state().lights) return settings::placed(*own, scene);
   std::vector<settings::StateLight> lights = settings::following(scene);
   for (settings::StateLight& light : lights)
     if (light.light.kind == tyndall::LightKind::Directional) light.light.cascadeFade = viewer.state().cascadeFade;

@@ -39,7 +39,7 @@ void drawPath(Viewer& viewer) {
   tooltip("the camera's moves, to be played again; a saved state has them");
   ImGui::EndDisabled();
   ImGui::SameLine();
-  const bool isPlayed = viewer.isOnPath() && !viewer.isRecording();
+  const bool isPlayed = viewer.isOnPath();
   ImGui::BeginDisabled(path.empty() || viewer.isRecording());
   if (ImGui::SmallButton(isPlayed ? "leave the path" : "play the path")) viewer.playPath(!isPlayed);
   ImGui::EndDisabled();

@@ -13,8 +13,8 @@ namespace viewer {
 
 class Window {
 public:
-  /// Throws host::Error without a display or OpenGL 3.3. `reports`: in a debug context, whose errors, and lines that
-  /// tell of mistakes, are printed on standard error as well.
+  /// Throws host::Error without a display or OpenGL 3.3. `reports`: in a debug context; its errors, lines that tell
+  /// of mistakes, and whether there is something left to do go to standard error.
   explicit Window(bool reports = false);
   ~Window();
   Window(const Window&) = delete;
