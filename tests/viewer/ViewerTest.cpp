@@ -190,67 +190,6 @@ TEST_CASE("a path may rest, and a scene's camera leaves it") {
   CHECK(rig.viewer.state().camera == 0);
 }
 
-TEST_CASE("a picture is saved as tyndall-render draws its state, differences and what has just been lit, too") {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path();
-  tests::ViewerRig rig;
-  rig.load("projector");
-  rig.settle();
-  settings::State state = rig.viewer.state();
-  state.settings.debugView = tyndall::DebugView::Difference;
-  rig.viewer.edit("view", state);
-  rig.settle();
-  rig.viewer.savePicture(folder / "tyndall-difference.exr");
-  CHECK(rig.error().empty());
-  const host::Image image = host::readExr(folder / "tyndall-difference.exr");
-  const std::vector<float>& red = *image.find("R");
-  const auto grey = std::count_if(red.begin(), red.end(), [](float r) { return std::abs(r - 0.5F) < 0.3F; });
-  CHECK(static_cast<double>(grey) > 0.8 * static_cast<double>(red.size())); // the composite is mostly dark
-  rig.viewer.undo();
-  rig.settle();
-  const double stops = rig.viewer.exposureStops();
-  state = rig.viewer.state();
-  state.lights = settings::following(rig.viewer.first().frame().lights);
-  for (settings::StateLight& light : *state.lights)
-    for (float& channel : light.light.colour)
-      channel *= 64;
-  rig.viewer.edit("light", state);
-  rig.viewer.savePicture(folder / "tyndall-bright.png"); // before it is drawn
-  CHECK(rig.viewer.exposureStops() < stops - 3);
-  std::filesystem::remove(folder / "tyndall-difference.exr");
-  std::filesystem::remove(folder / "tyndall-bright.png");
-}
-
-TEST_CASE("no state and no picture is written over what the scene is read from") {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "tyndall-own-files";
-  std::filesystem::create_directories(folder);
-  const std::filesystem::path scene = folder / "scene.json"; // which a glTF may be called
-  std::filesystem::copy_file(tests::sceneFile("projector"), scene, std::filesystem::copy_options::overwrite_existing);
-  tests::ViewerRig rig;
-  rig.viewer.open(scene);
-  rig.runUntil([&] { return !rig.viewer.loader().isLoading(); });
-  REQUIRE(rig.viewer.scene());
-  static_cast<void>(rig.error());
-  rig.viewer.saveState(scene);
-  CHECK_THAT(rig.error(), Catch::Contains("is a file of the scene"));
-  CHECK(std::filesystem::file_size(scene) == std::filesystem::file_size(tests::sceneFile("projector")));
-  rig.viewer.saveState(folder / "state");
-  CHECK_THAT(rig.error(), Catch::Contains("a state's name must end in .json"));
-  std::filesystem::remove_all(folder);
-}
-
-TEST_CASE("a state for the scene that is shown is checked as one for another is") {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "tyndall-camera.json";
-  tests::ViewerRig rig;
-  rig.load("projector");
-  rig.settle();
-  const settings::State before = rig.viewer.state();
-  std::ofstream(file) << R"({"version": 1, "camera": {"scene": 99}})";
-  rig.viewer.openState(file);
-  CHECK_THAT(rig.error(), Catch::Contains("camera 99 is not there"));
-  CHECK(tests::differences(rig.viewer.state(), before) == std::vector<std::string>());
-  std::filesystem::remove(file);
-}
-
 TEST_CASE("a light may become one of any kind, whatever its fields are") {
   tests::ViewerRig rig;
   rig.load("projector");
@@ -330,44 +269,6 @@ TEST_CASE("an animation plays and can be stopped") {
   rig.viewer.playback.isPlaying = false;
   rig.settle();
   CHECK(rig.viewer.state().seconds == seconds);
-}
-
-TEST_CASE("what is shown is what host::toneMap makes of the picture") {
-  tests::ViewerRig rig;
-  rig.load("projector");
-  for (const host::Tone tone : {host::Tone::Film, host::Tone::Reinhard, host::Tone::Clip}) {
-    settings::State state = rig.viewer.state();
-    state.exposureStops = -1;
-    state.tone = tone;
-    rig.viewer.edit("tone", state);
-    rig.settle();
-    const std::vector<float> shown = host::readColour(rig.viewer.picture(), 96, 54, 3);
-    const std::vector<float> radiance = host::readColour(rig.viewer.first().composite(), 96, 54, 3);
-    const std::vector<std::uint8_t> wanted = host::toneMap(radiance.data(), 96, 54, 0.5F, 1, tone);
-    float largest = 0;
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-      largest = std::max(largest, std::abs(255 * shown[i] - static_cast<float>(wanted[i])));
-    CAPTURE(static_cast<int>(tone));
-    CHECK(largest <= 1.01F);
-  }
-}
-
-TEST_CASE("pictures are saved as they are shown") {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path();
-  tests::ViewerRig rig;
-  rig.load("projector");
-  rig.viewer.savePicture(folder / "tyndall-saved.exr");
-  CHECK(rig.error().empty());
-  const host::Image image = host::readExr(folder / "tyndall-saved.exr");
-  CHECK(image.width == 96);
-  CHECK(image.find("inscatter.R"));
-  rig.viewer.savePicture(folder / "tyndall-saved.png");
-  CHECK(host::isWholePng(folder / "tyndall-saved.png", 96, 54));
-  rig.viewer.savePicture(folder / "tyndall-saved.jpg");
-  CHECK_THAT(rig.error(), Catch::Contains("must end in .exr or .png"));
-  rig.viewer.savePicture("/proc/a.png");
-  CHECK_THAT(rig.error(), Catch::Contains("/proc/a.png"));
-  rig.settle();
 }
 
 TEST_CASE("a state that contradicts itself is not taken") {
