@@ -17,6 +17,12 @@ if sources | grep -v '^tests/support/Catch.h$' | xargs grep -n 'include <catch2/
   exit 1
 fi
 
+# Cases run side by side: a name that two of them choose is a failure that nobody sees twice.
+if sources | grep -v '^tests/support/TemporaryFolder.h$' | grep '^tests/' | xargs grep -n temp_directory_path; then
+  echo "write into a tests::TemporaryFolder instead" >&2
+  exit 1
+fi
+
 if command -v "$clang_format" >/dev/null; then
   sources | xargs "$clang_format" --dry-run --Werror
   echo "$clang_format: clean"

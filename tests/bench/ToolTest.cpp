@@ -2,6 +2,7 @@
 #include "Plan.h"
 #include "ReferenceCache.h"
 #include "support/Catch.h"
+#include "support/TemporaryFolder.h"
 
 #include <algorithm>
 #include <array>
@@ -46,25 +47,6 @@ nlohmann::json readJson(const fs::path& file) {
   return nlohmann::json::parse(stream);
 }
 
-class Folder {
-public:
-  Folder() : path_(fs::temp_directory_path() / ("tyndall-bench-" + std::to_string(getpid()))) {
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::permissions(path_, fs::perms::owner_all, ignored);
-    fs::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  const fs::path& path() const { return path_; }
-
-private:
-  fs::path path_;
-};
-
 } // namespace
 
 TEST_CASE("wrong usage is a line that names the option and one on how to get help, exit code 2") {
@@ -105,7 +87,7 @@ TEST_CASE("a read-only output folder is refused") {
     WARN("skipped: root may write anywhere");
     return;
   }
-  const Folder folder;
+  const tests::TemporaryFolder folder;
   fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
   const ToolResult result = runTool("--out " + folder.path().string());
   CHECK(result.exitCode == 2);
@@ -113,7 +95,7 @@ TEST_CASE("a read-only output folder is refused") {
 }
 
 TEST_CASE("a case that fails is reported and the rest go on") {
-  const Folder folder;
+  const tests::TemporaryFolder folder;
   // A window needs a display.
   const ToolResult result =
       runTool("--sizes 32x32 --shadow-sizes 64 --techniques exact,fixed:16 --contexts glfw,osmesa --out " +
@@ -122,19 +104,19 @@ TEST_CASE("a case that fails is reported and the rest go on") {
   CHECK(result.exitCode == 1);
   CHECK(result.output.find("FAILED") != std::string::npos);
   CHECK(result.output.find("llvmpipe") != std::string::npos);
-  CHECK(fs::exists(folder.path() / "bench.csv"));
-  CHECK(fs::exists(folder.path() / "bench.json"));
+  CHECK(fs::exists(folder / "bench.csv"));
+  CHECK(fs::exists(folder / "bench.json"));
 }
 
 TEST_CASE("every pass that ran has a floor, and only those, and visits are counted where there is a tree") {
-  const Folder folder;
+  const tests::TemporaryFolder folder;
   const ToolResult result = runTool("--scenes nave,stage --sizes 96x64 --shadow-sizes 128 --floors --techniques "
                                     "exact,high,performance,tree:64,fixed:16 --out " +
                                     folder.path().string());
   INFO(result.output);
   REQUIRE(result.exitCode == 0);
   CHECK(result.output.find("high against its floors") != std::string::npos);
-  const nlohmann::json bench = readJson(folder.path() / "bench.json");
+  const nlohmann::json bench = readJson(folder / "bench.json");
   for (const nlohmann::json& r : bench.at("results")) {
     CAPTURE(r.at("scene"), r.at("technique"));
     const bool isOurs = r.at("group") == "ours", hasTree = isOurs || r.at("family") == "tree";
@@ -156,14 +138,14 @@ TEST_CASE("every pass that ran has a floor, and only those, and visits are count
 }
 
 TEST_CASE("runs end when they took long; GL's own time is beside each, and what render() takes of the processor") {
-  const Folder folder;
+  const tests::TemporaryFolder folder;
   const ToolResult result = runTool("--scenes stage --sizes 96x64 --shadow-sizes 128 --techniques exact,high --runs 20 "
                                     "--run-seconds 0.0001 --calls --out " +
                                     folder.path().string());
   INFO(result.output);
   REQUIRE(result.exitCode == 0);
   CHECK(result.output.find("the processor in render()") != std::string::npos);
-  for (const nlohmann::json& r : readJson(folder.path() / "bench.json").at("results")) {
+  for (const nlohmann::json& r : readJson(folder / "bench.json").at("results")) {
     CAPTURE(r.at("technique"));
     CHECK(r.at("ms").at("runs").size() == 3);
     REQUIRE(r.at("gpu_ms").at("runs").size() == 3);
@@ -189,14 +171,14 @@ TEST_CASE("the scaling series are measured in the context that is asked for") {
 }
 
 TEST_CASE("the report's tables hold the numbers of a run") {
-  const Folder folder;
+  const tests::TemporaryFolder folder;
   REQUIRE(runTool("--sizes 96x64 --shadow-sizes 128 --floors --techniques exact,high,tree:64,fixed:16 --out " +
                   folder.path().string())
               .exitCode == 0);
-  const ToolResult report = runReport(folder.path() / "bench.json");
+  const ToolResult report = runReport(folder / "bench.json");
   INFO(report.output);
   REQUIRE(report.exitCode == 0);
-  const nlohmann::json bench = readJson(folder.path() / "bench.json");
+  const nlohmann::json bench = readJson(folder / "bench.json");
   const auto holds = [&](const std::string& text) { return report.output.find(text) != std::string::npos; };
   CHECK(holds(bench.at("machine").at("processor")));
   CHECK(holds("Commit: " + bench.at("commit").get<std::string>()));
@@ -215,7 +197,7 @@ TEST_CASE("the report's tables hold the numbers of a run") {
 }
 
 TEST_CASE("the report computes means, ratios and the Pareto front") {
-  const Folder folder;
+  const tests::TemporaryFolder folder;
   nlohmann::json bench = {{"machine", {{"processor", "P"}, {"cores", 1}, {"memory", 1 << 30}, {"system", "S"}}},
                           {"commit", "c"},
                           {"date", "d"}};
@@ -244,8 +226,8 @@ TEST_CASE("the report computes means, ratios and the Pareto front") {
                        {"first_ms", 2.0},
                        {"last_ms", 8.0},
                        {"exponent", 0.5}}};
-  std::ofstream(folder.path() / "bench.json") << bench;
-  const ToolResult report = runReport(folder.path() / "bench.json");
+  std::ofstream(folder / "bench.json") << bench;
+  const ToolResult report = runReport(folder / "bench.json");
   INFO(report.output);
   REQUIRE(report.exitCode == 0);
   for (const char* row :
@@ -257,7 +239,7 @@ TEST_CASE("the report computes means, ratios and the Pareto front") {
 }
 
 TEST_CASE("a reference is kept, and made anew when its file is damaged or of another version") {
-  const Folder folder;
+  const tests::TemporaryFolder folder;
   std::vector<std::string> said;
   const bench::ReferenceCache cache(folder.path(), [&said](const std::string& line) { said.push_back(line); });
   reference::MapScene scene;

@@ -2,6 +2,7 @@
 // terms: every sample scene with an isotropic medium of its own density. tyndall-low-rank [SCENE…]
 #include "reference/Metrics.h"
 #include "render/SceneAnswers.h"
+#include "support/TemporaryFolder.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -14,22 +15,22 @@ namespace {
 
 constexpr int kTerms = 8;
 
-/// A file with the scene's medium, all scattering isotropic.
-std::filesystem::path writeIsotropic(const tyndall::Medium& medium) {
+/// Writes the scene's medium, all scattering isotropic.
+void writeIsotropic(const tyndall::Medium& medium, const std::filesystem::path& file) {
   tyndall::Rgb sum{};
   for (const tyndall::Constituent& constituent : medium.constituents)
     for (std::size_t c = 0; c < 3; ++c)
       sum[c] += constituent.scattering[c];
   const nlohmann::json json = {{"constituents", {{{"scattering", sum}, {"phase", "isotropic"}}}},
                                {"absorption", medium.absorption}};
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / "tyndall-low-rank-medium.json";
-  host::writeText(path, json.dump());
-  return path;
+  host::writeText(file, json.dump());
 }
 
 void printRow(const std::string& scene) {
   render::Options options = tests::sampleOptions(scene, 320, 180, 1024);
-  options.mediumFile = writeIsotropic(tests::renderScene(options).view.medium);
+  const tests::TemporaryFolder folder;
+  writeIsotropic(tests::renderScene(options).view.medium, folder / "medium.json");
+  options.mediumFile = folder / "medium.json";
   options.settings.technique = tyndall::Technique::Tree;
   const reference::Image truth = tests::renderScene(options).exact.inscatter;
   host::print("| " + scene + " |");
@@ -40,7 +41,6 @@ void printRow(const std::string& scene) {
     host::print(fmt::format(" {:.2g} % |", 100 * error.rRmse));
   }
   host::print("\n");
-  std::filesystem::remove(*options.mediumFile);
 }
 
 } // namespace

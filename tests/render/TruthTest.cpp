@@ -1,5 +1,6 @@
 // tyndall-render against the independent truth of ../shared/truth, judged by the comparison that comes with it.
 #include "support/Catch.h"
+#include "support/TemporaryFolder.h"
 
 #include <algorithm>
 #include <array>
@@ -25,8 +26,7 @@ std::string outputOf(const std::string& command) {
 
 // The comparison of the scene as a profile renders it with its truth.
 nlohmann::json compareWithTruth(const fs::path& truth, const std::string& name, const std::string& profile) {
-  const fs::path scratch = fs::temp_directory_path() / "tyndall-truth";
-  fs::create_directories(scratch);
+  const tests::TemporaryFolder scratch;
   const std::string scene = "analytic_" + name;
   const fs::path image = scratch / (scene + ".exr");
   // The slit's slab of light runs 600 m along the view: one map of 4096 texels would spend 15 cm on each.
@@ -39,7 +39,6 @@ nlohmann::json compareWithTruth(const fs::path& truth, const std::string& name, 
   const std::string compare = "/usr/bin/python3 " + (truth / "compare.py").string() + " " + image.string() + " " +
                               (truth / "images" / (scene + "_320x180.exr")).string() + " --layer inscatter --json";
   const std::string answer = outputOf(compare);
-  fs::remove_all(scratch);
   INFO(scene << ", " << profile << ": " << answer);
   const nlohmann::json json = nlohmann::json::parse(answer, nullptr, false);
   REQUIRE(json.is_object());

@@ -1,6 +1,7 @@
 // Frames as C++ that compiles.
 #include "RandomState.h"
 #include "support/Catch.h"
+#include "support/TemporaryFolder.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -33,14 +34,13 @@ tyndall::Frame frameOf(const settings::State& state) {
 
 /// Whether the project's compiler takes it.
 bool compiles(const std::string& code, bool isQuiet = false) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "tyndall-code-test.cpp";
+  const tests::TemporaryFolder folder;
+  const std::filesystem::path file = folder / "frame.cpp";
   std::ofstream(file) << code;
   const std::string command = std::string(TYNDALL_COMPILER) + " -std=c++17 -Wall -Wextra -Werror -fsyntax-only -I" +
                               TYNDALL_INCLUDE + " -Wno-unused-function " + file.string() +
                               (isQuiet ? " 2>/dev/null" : "");
-  const bool isGood = std::system(command.c_str()) == 0;
-  if (isGood) std::filesystem::remove(file);
-  return isGood;
+  return std::system(command.c_str()) == 0;
 }
 
 } // namespace

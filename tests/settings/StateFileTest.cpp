@@ -1,6 +1,7 @@
 // States as files: what is written is read back, and what breaks a rule is refused as a whole.
 #include "RandomState.h"
 #include "support/Catch.h"
+#include "support/TemporaryFolder.h"
 
 #include <cstdio>
 #include <fstream>
@@ -13,20 +14,6 @@
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Folder {
-  Folder() : path(fs::temp_directory_path() / "tyndall-state-test") {
-    fs::remove_all(path);
-    fs::create_directories(path / "scenes");
-  }
-  ~Folder() {
-    fs::permissions(path, fs::perms::owner_all);
-    fs::remove_all(path);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  fs::path path;
-};
 
 std::string refusalOf(const std::string& text) {
   try {
@@ -67,14 +54,15 @@ TEST_CASE("random states reach every setting") {
 }
 
 TEST_CASE("a state's scene is found from the state's folder") {
-  const Folder folder;
+  const tests::TemporaryFolder folder;
+  fs::create_directories(folder / "scenes");
   settings::State state;
-  state.scene = folder.path / "scenes/nave.glb";
-  settings::saveState(folder.path / "a.json", state);
-  CHECK(settings::loadState(folder.path / "a.json").scene == folder.path / "scenes/nave.glb");
-  fs::create_directories(folder.path / "moved");
-  fs::rename(folder.path / "a.json", folder.path / "moved/a.json");
-  CHECK(settings::loadState(folder.path / "moved/a.json").scene == folder.path / "moved/scenes/nave.glb");
+  state.scene = folder / "scenes/nave.glb";
+  settings::saveState(folder / "a.json", state);
+  CHECK(settings::loadState(folder / "a.json").scene == folder / "scenes/nave.glb");
+  fs::create_directories(folder / "moved");
+  fs::rename(folder / "a.json", folder / "moved/a.json");
+  CHECK(settings::loadState(folder / "moved/a.json").scene == folder / "moved/scenes/nave.glb");
 }
 
 TEST_CASE("what a state leaves out is at its default, settings at the profile's") {
@@ -168,16 +156,17 @@ TEST_CASE("every setting out of its range is refused by its name") {
 }
 
 TEST_CASE("a state that cannot be written leaves what there was") {
-  const Folder folder;
-  const fs::path file = folder.path / "a.json";
+  const tests::TemporaryFolder folder;
+  fs::create_directories(folder / "scenes");
+  const fs::path file = folder / "a.json";
   settings::State state;
   settings::saveState(file, state);
   state.settings.slices = 5;
-  CHECK_THROWS_AS(settings::saveState(folder.path / "missing/a.json", state), host::Error);
-  fs::create_directories(folder.path / "b.json");
-  CHECK_THROWS_AS(settings::saveState(folder.path / "b.json", state), host::Error);
+  CHECK_THROWS_AS(settings::saveState(folder / "missing/a.json", state), host::Error);
+  fs::create_directories(folder / "b.json");
+  CHECK_THROWS_AS(settings::saveState(folder / "b.json", state), host::Error);
   CHECK(settings::loadState(file).settings.slices == settings::State().settings.slices);
   settings::saveState(file, state);
   CHECK(settings::loadState(file).settings.slices == 5);
-  CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()) == 3); // nothing unfinished
+  CHECK(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()) == 3); // nothing unfinished
 }

@@ -31,7 +31,8 @@ TEST_CASE("a scene is loaded by a thread of its own, which says how far it is") 
 }
 
 TEST_CASE("what is no scene is one line") {
-  const std::filesystem::path broken = std::filesystem::temp_directory_path() / "tyndall-broken.glb";
+  const tests::TemporaryFolder folder;
+  const std::filesystem::path broken = folder / "broken.glb";
   std::ofstream(broken) << "glTF, but no more";
   viewer::SceneLoader loader;
   for (const std::filesystem::path& file :
@@ -43,7 +44,6 @@ TEST_CASE("what is no scene is one line") {
     CHECK_FALSE(result.error.empty());
     CHECK(result.error.find('\n') == std::string::npos);
   }
-  std::filesystem::remove(broken);
 }
 
 TEST_CASE("loading is ended by another scene, and with the loader") {

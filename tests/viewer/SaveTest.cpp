@@ -11,7 +11,7 @@
 #include <settings/Tables.h>
 
 TEST_CASE("a picture is saved as tyndall-render draws its state, differences and what has just been lit, too") {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  const tests::TemporaryFolder folder;
   tests::ViewerRig rig;
   rig.load("projector");
   rig.settle();
@@ -19,9 +19,9 @@ TEST_CASE("a picture is saved as tyndall-render draws its state, differences and
   state.settings.debugView = tyndall::DebugView::Difference;
   rig.viewer.edit("view", state);
   rig.settle();
-  rig.viewer.savePicture(folder / "tyndall-difference.exr");
+  rig.viewer.savePicture(folder / "difference.exr");
   CHECK(rig.error().empty());
-  const host::Image image = host::readExr(folder / "tyndall-difference.exr");
+  const host::Image image = host::readExr(folder / "difference.exr");
   const std::vector<float>& red = *image.find("R");
   const auto grey = std::count_if(red.begin(), red.end(), [](float r) { return std::abs(r - 0.5F) < 0.3F; });
   CHECK(static_cast<double>(grey) > 0.8 * static_cast<double>(red.size())); // the composite is mostly dark
@@ -34,17 +34,14 @@ TEST_CASE("a picture is saved as tyndall-render draws its state, differences and
     for (float& channel : light.light.colour)
       channel *= 64;
   rig.viewer.edit("light", state);
-  rig.viewer.savePicture(folder / "tyndall-bright.png"); // before it is drawn
+  rig.viewer.savePicture(folder / "bright.png"); // before it is drawn
   CHECK(rig.viewer.exposureStops() < stops - 3);
-  std::filesystem::remove(folder / "tyndall-difference.exr");
-  std::filesystem::remove(folder / "tyndall-bright.png");
 }
 
 TEST_CASE("no state and no picture is written over what the scene is read from") {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "tyndall-own-files";
-  std::filesystem::create_directories(folder);
+  const tests::TemporaryFolder folder;
   const std::filesystem::path scene = folder / "scene.json"; // which a glTF may be called
-  std::filesystem::copy_file(tests::sceneFile("projector"), scene, std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::copy_file(tests::sceneFile("projector"), scene);
   tests::ViewerRig rig;
   rig.viewer.open(scene);
   rig.runUntil([&] { return !rig.viewer.loader().isLoading(); });
@@ -55,11 +52,11 @@ TEST_CASE("no state and no picture is written over what the scene is read from")
   CHECK(std::filesystem::file_size(scene) == std::filesystem::file_size(tests::sceneFile("projector")));
   rig.viewer.saveState(folder / "state");
   CHECK_THAT(rig.error(), Catch::Contains("a state's name must end in .json"));
-  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("a state for the scene that is shown is checked as one for another is") {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "tyndall-camera.json";
+  const tests::TemporaryFolder folder;
+  const std::filesystem::path file = folder / "camera.json";
   tests::ViewerRig rig;
   rig.load("projector");
   rig.settle();
@@ -68,7 +65,6 @@ TEST_CASE("a state for the scene that is shown is checked as one for another is"
   rig.viewer.openState(file);
   CHECK_THAT(rig.error(), Catch::Contains("camera 99 is not there"));
   CHECK(tests::differences(rig.viewer.state(), before) == std::vector<std::string>());
-  std::filesystem::remove(file);
 }
 
 TEST_CASE("what is shown is what host::toneMap makes of the picture") {
@@ -92,17 +88,17 @@ TEST_CASE("what is shown is what host::toneMap makes of the picture") {
 }
 
 TEST_CASE("pictures are saved as they are shown") {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  const tests::TemporaryFolder folder;
   tests::ViewerRig rig;
   rig.load("projector");
-  rig.viewer.savePicture(folder / "tyndall-saved.exr");
+  rig.viewer.savePicture(folder / "saved.exr");
   CHECK(rig.error().empty());
-  const host::Image image = host::readExr(folder / "tyndall-saved.exr");
+  const host::Image image = host::readExr(folder / "saved.exr");
   CHECK(image.width == 96);
   CHECK(image.find("inscatter.R"));
-  rig.viewer.savePicture(folder / "tyndall-saved.png");
-  CHECK(host::isWholePng(folder / "tyndall-saved.png", 96, 54));
-  rig.viewer.savePicture(folder / "tyndall-saved.jpg");
+  rig.viewer.savePicture(folder / "saved.png");
+  CHECK(host::isWholePng(folder / "saved.png", 96, 54));
+  rig.viewer.savePicture(folder / "saved.jpg");
   CHECK_THAT(rig.error(), Catch::Contains("must end in .exr or .png"));
   rig.viewer.savePicture("/proc/a.png");
   CHECK_THAT(rig.error(), Catch::Contains("/proc/a.png"));

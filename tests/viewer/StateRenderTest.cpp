@@ -89,7 +89,8 @@ settings::State editedState() {
 }
 
 void checkOnePicture(const settings::State& state) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "tyndall-state-render.json";
+  const tests::TemporaryFolder folder;
+  const std::filesystem::path file = folder / "state.json";
   settings::saveState(file, state);
   const render::Picture byFile = rendered(parsed({"tyndall-render", "--state", file.string()}));
   const std::string command = settings::commandOf(state);
@@ -107,7 +108,6 @@ void checkOnePicture(const settings::State& state) {
   REQUIRE(shown.width() == state.width);
   CHECK(differenceOf(host::readColour(shown.composite(), state.width, state.height), byFile.composite) < 1e-6);
   CHECK(differenceOf(host::readColour(shown.inscatter(), state.width, state.height), byFile.inscatter) < 1e-6);
-  std::filesystem::remove(file);
 }
 
 } // namespace
@@ -128,7 +128,8 @@ TEST_CASE("so it is by another technique, from another place, in several cascade
 }
 
 TEST_CASE("whatever was done before, the picture at rest is that of the state which is saved then") {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "tyndall-state-after.json";
+  const tests::TemporaryFolder folder;
+  const std::filesystem::path file = folder / "state.json";
   for (const char* scene : {"stage", "nave"}) {
     CAPTURE(scene);
     tests::ViewerRig rig(160, 90);
@@ -159,5 +160,4 @@ TEST_CASE("whatever was done before, the picture at rest is that of the state wh
       CHECK(differenceOf(host::readColour(rig.viewer.first().inscatter(), 160, 90), fresh.inscatter) < 1e-6);
     }
   }
-  std::filesystem::remove(file);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "support/Catch.h"
+#include "support/TemporaryFolder.h"
 #include "support/TestContext.h"
 
 #include <viewer/core/Viewer.h>

@@ -20,9 +20,10 @@ TEST_CASE("a viewer without a scene does nothing") {
   rig.viewer.useSceneCamera(3);
   rig.viewer.setView(rig.viewer.view());
   rig.viewer.undo();
-  rig.viewer.savePicture("/tmp/no-scene.png");
+  const tests::TemporaryFolder folder;
+  rig.viewer.savePicture(folder / "no-scene.png");
   CHECK(rig.error() == "there is no picture to save: no scene is loaded");
-  CHECK_FALSE(std::filesystem::exists("/tmp/no-scene.png"));
+  CHECK(std::filesystem::is_empty(folder.path()));
 }
 
 TEST_CASE("a picture is whole soon after the last change, and then nothing is done") {
@@ -56,8 +57,9 @@ TEST_CASE("a scene that cannot be loaded is a message, and the old one stays") {
 }
 
 TEST_CASE("a scene that is deleted while it is shown stays, and states of it are saved") {
-  const std::filesystem::path copy = std::filesystem::temp_directory_path() / "tyndall-deleted.glb";
-  std::filesystem::copy_file(tests::sceneFile("projector"), copy, std::filesystem::copy_options::overwrite_existing);
+  const tests::TemporaryFolder folder;
+  const std::filesystem::path copy = folder / "deleted.glb";
+  std::filesystem::copy_file(tests::sceneFile("projector"), copy);
   tests::ViewerRig rig;
   rig.viewer.open(copy);
   rig.runUntil([&] { return !rig.viewer.loader().isLoading(); });
@@ -65,13 +67,12 @@ TEST_CASE("a scene that is deleted while it is shown stays, and states of it are
   rig.viewer.setView(viewer::orbited(rig.viewer.view(), 0.1, 0));
   rig.settle();
   CHECK(rig.error().empty());
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "tyndall-deleted.json";
+  const std::filesystem::path file = folder / "deleted.json";
   rig.viewer.saveState(file);
   CHECK(rig.error().empty());
   rig.viewer.openState(file); // of the scene that is there
   CHECK(rig.error().empty());
   CHECK_FALSE(rig.viewer.loader().isLoading());
-  std::filesystem::remove(file);
 }
 
 TEST_CASE("the window lives while a picture takes long, and what it changes ends that picture") {
@@ -302,7 +303,8 @@ TEST_CASE("a camera that the scene does not have is a message, and the view can 
   tests::ViewerRig rig;
   rig.load("projector");
   rig.settle();
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "tyndall-camera.json";
+  const tests::TemporaryFolder folder;
+  const std::filesystem::path file = folder / "camera.json";
   settings::State state = rig.viewer.state();
   state.camera = 77;
   settings::saveState(file, state);
@@ -312,7 +314,6 @@ TEST_CASE("a camera that the scene does not have is a message, and the view can 
   rig.viewer.setView(viewer::orbited(rig.viewer.view(), 0.1, 0));
   rig.settle();
   CHECK(rig.error().empty());
-  std::filesystem::remove(file);
 }
 
 TEST_CASE("smoke's shadows outlive another size of the shadow maps") {

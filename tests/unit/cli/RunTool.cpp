@@ -60,17 +60,7 @@ std::vector<std::string> ToolResult::errLines() const {
   return lines;
 }
 
-ToolFolder::ToolFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "tyndall-cli-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  folder_ = name;
-  write("triangle.gltf", kTriangle);
-}
-
-ToolFolder::~ToolFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
-}
+ToolFolder::ToolFolder() { write("triangle.gltf", kTriangle); }
 
 void ToolFolder::write(const std::string& name, const std::string& text) const {
   std::ofstream(path(name), std::ios::binary) << text;
@@ -80,7 +70,7 @@ std::string ToolFolder::read(const std::string& name) const { return contentOf(p
 
 std::vector<std::string> ToolFolder::files() const {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_))
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
     names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
@@ -94,12 +84,12 @@ ToolResult ToolFolder::run(std::vector<std::string> arguments) const {
 ToolResult ToolFolder::shell(const std::string& command) const { return runCommand({"sh", "-c", command}); }
 
 ToolResult ToolFolder::runCommand(const std::vector<std::string>& command) const {
-  const std::string outName = folder_.string() + ".out";
-  const std::string errName = folder_.string() + ".err";
+  const std::string outName = folder_.path().string() + ".out";
+  const std::string errName = folder_.path().string() + ".err";
   const int out = open(outName.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
   const int err = open(errName.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
   const pid_t child = fork();
-  if (child == 0) become(folder_, command, out, err);
+  if (child == 0) become(folder_.path(), command, out, err);
   int status = 0;
   waitpid(child, &status, 0);
   close(out);

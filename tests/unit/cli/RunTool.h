@@ -1,6 +1,8 @@
 // Runs tyndall-render as a process of its own, in an empty folder that goes with the test.
 #pragma once
 
+#include "support/TemporaryFolder.h"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,9 +22,6 @@ struct ToolResult {
 class ToolFolder {
 public:
   ToolFolder();
-  ~ToolFolder();
-  ToolFolder(const ToolFolder&) = delete;
-  ToolFolder& operator=(const ToolFolder&) = delete;
 
   std::filesystem::path path(const std::string& name) const { return folder_ / name; }
   void write(const std::string& name, const std::string& text) const;
@@ -38,7 +37,7 @@ public:
 private:
   ToolResult runCommand(const std::vector<std::string>& command) const;
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 } // namespace tests

@@ -1,5 +1,7 @@
-// Small glTF files made in a test, and a folder to write them to.
+// Small glTF files made in a test.
 #pragma once
+
+#include "support/TemporaryFolder.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -9,21 +11,6 @@
 #include <vector>
 
 namespace tests {
-
-/// An empty folder that vanishes with everything in it.
-class TemporaryFolder {
-public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
-private:
-  std::filesystem::path path_;
-};
 
 std::vector<std::uint8_t> readBytes(const std::filesystem::path& file);
 void writeBytes(const std::filesystem::path& file, const std::vector<std::uint8_t>& bytes);
