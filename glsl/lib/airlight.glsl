@@ -129,8 +129,8 @@ vec2 coneInterval(Airlight light, ConeRay ray, vec2 cosSinSquared) {
   float A = narrow ? cosSinSquared.y - ray.along.y * ray.along.y : v * v - c * c;
   float C = narrow ? cosSinSquared.y * light.height2 - (ray.along.x * ray.along.x + ray.along.z * ray.along.z)
                    : b * b - c * c * light.height2;
-  // A ray through the lamp itself, as far as floats tell (the floor of airlightOf): its direction alone decides.
-  if (light.height2 <= 1.01e-13 * light.foot * light.foot) return A < 0.0 ? kNone : v > 0.0 ? vec2(0.0, kFar) : vec2(-kFar, 0.0);
+  // A ray through the lamp itself, as far as floats tell (the floors of airlightOf): its direction alone decides.
+  if (light.height2 <= 1.01 * max(1e-13 * light.foot * light.foot, 1e-36)) return A < 0.0 ? kNone : v > 0.0 ? vec2(0.0, kFar) : vec2(-kFar, 0.0);
   float B = narrow ? -ray.along.x * ray.along.y : b * v;
   float discriminant = c * c * (cosSinSquared.y * light.height2 - ray.axisDistance * ray.axisDistance);
   if (!(discriminant > 0.0)) return kNone;

@@ -86,4 +86,15 @@ void addLowRank(Airlight light, float s0, float s1, Visibility visibility, inout
   sum += visibility * Light(lowRank.factor * own);
 }
 
+// What the products come to, kept from none of the light to all of it: they are an approximation, worst where the medium is thick or
+// the phase function peaked.
+vec3 withinUnshadowed(vec3 own, Ray ray, float end) {
+  Airlight light = airlightOf(ray);
+  float s0 = 0.0, s1 = end;
+  litRange(light, s0, s1);
+  Light all = Light(0.0);
+  if (s1 > s0) addAirlight(light, s0, s1, Visibility(1.0), all);
+  return clamp(own, vec3(0.0), vec3(all));
+}
+
 #define addAirlight addLowRank

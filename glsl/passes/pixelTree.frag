@@ -27,6 +27,9 @@ void main() {
   startLowRank(cameraRay(position), slice);
 #endif
   vec3 light = vec3(rowShadowedLight(position, 0.0, end, slice));
+#ifdef LOW_RANK
+  light = withinUnshadowed(light, cameraRay(position), end);
+#endif
 #ifdef COUNT_VISITS
   outInscatter = vec4(visits);
 #else

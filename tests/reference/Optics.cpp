@@ -158,8 +158,9 @@ void Airlight::preparePoint(const tyndall::Light& light) {
   }
   const double half = std::sqrt((light.range - height_) * (light.range + height_));
   support_ = {std::max(support_.begin, foot_ - half), std::min(support_.end, foot_ + half)};
-  // Beyond this 1/r^2 has left nothing to double precision.
-  support_.end = std::min(support_.end, std::max(foot_, 0.0) + 1e20 * (std::abs(foot_) + height_));
+  // Beyond this 1/r^2 has left nothing to double precision; from the light itself on there is no such place.
+  if (std::abs(foot_) + height_ > 0)
+    support_.end = std::min(support_.end, std::max(foot_, 0.0) + 1e20 * (std::abs(foot_) + height_));
   spot_ = light.kind == tyndall::LightKind::Spot;
   if (!spot_) return;
   const glm::dvec3 axis = glm::normalize(toVec3(light.direction));
@@ -257,7 +258,12 @@ Rgb Airlight::adaptive(const Panel& panel, const Rgb& total, int depth) const {
 
 Rgb Airlight::pointPiece(double s0, double s1) const {
   const Panel whole = panel(s0, s1);
-  if (whole.e0 <= 0) return colour_ * phaseSum(-whole.side) * kInfinity;
+  if (whole.e0 <= 0) { // the light itself
+    Rgb endless = colour_ * phaseSum(-whole.side);
+    for (int c = 0; c < 3; ++c)
+      if (endless[c] > 0) endless[c] = kInfinity;
+    return endless;
+  }
   const double variation = panelVariation(whole);
   if (variation <= 0.25) {
     const Nodes nodes = nodesFor(variation);

@@ -1,9 +1,5 @@
-#include "support/FailureReport.h"
-
-#define CATCH_CONFIG_RUNNER
-#include "support/Catch.h"
-
-int main(int argc, char** argv) {
-  tests::reportFailures();
-  return Catch::Session().run(argc, argv);
+namespace tests {
+int runTests(int argc, char** argv); // RunTests.cpp
 }
+
+int main(int argc, char** argv) { return tests::runTests(argc, argv); }

@@ -226,6 +226,14 @@ glm::vec4 marginOf(const glm::dmat4& texelFromCamera, const glm::dvec2& size, co
   return margin;
 }
 
+// A lamp nearer to the eye than double rounding of the camera's matrix is at the eye, where directions alone tell what
+// its cone holds: in what direction rounding moved it must not.
+glm::dvec3 fromEye(const glm::dvec3& lamp, const glm::dvec3& eye) {
+  constexpr double kRounding = 1e-14;
+  const glm::dvec3 apart = lamp - eye;
+  return glm::length(apart) > kRounding * (glm::length(lamp) + glm::length(eye)) ? apart : glm::dvec3(0);
+}
+
 // No camera ray begins farther from the origin.
 double extentOf(const Camera& camera) {
   const glm::dmat4 clipFromWorld = toGlm(camera.clipFromView) * toGlm(camera.viewFromWorld);
@@ -247,7 +255,7 @@ blocks::LightBlock lightBlock(const Frame& frame, const Light& light, int shadow
   blocks::LightBlock block{};
   block.lightColour = glm::min(glm::dvec3(toGlm(light.colour)) * scatteringOf(frame.medium), kBrightest);
   block.lightDirection = direction;
-  block.lightPosition = toGlm(light.position) - origin;
+  block.lightPosition = fromEye(toGlm(light.position), origin);
   block.lightRange = static_cast<float>(std::isfinite(light.range) ? light.range : 0);
   setCone(block, light);
   block.boundary = boundaryOf(light.boundary, direction, origin);

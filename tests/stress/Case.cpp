@@ -1,0 +1,121 @@
+#include "Case.h"
+
+#include "reference/CameraRays.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+using namespace tyndall;
+
+namespace stress {
+
+namespace {
+
+constexpr const char* kRelationNames[] = {"scale",        "offset",     "mirror",      "roll",       "depth",
+                                          "double light", "half media", "light order", "split light"};
+static_assert(std::size(kRelationNames) == kRelations);
+
+} // namespace
+
+const char* nameOf(Relation relation) { return kRelationNames[static_cast<int>(relation)]; }
+
+Vec3 toVec3(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+Mat4 Lens::clipFromView(double aspect) const {
+  const glm::dmat4 clip = reference::toMat4(convention.clipFromView(size, aspect));
+  return tests::toMat4(glm::translate(glm::dmat4(1), glm::dvec3(shift, 0)) * clip);
+}
+
+EyeFrame::EyeFrame(const Camera& camera) {
+  const glm::dmat4 worldFromView = glm::inverse(reference::toMat4(camera.viewFromWorld));
+  axes = glm::dmat3(worldFromView);
+  position = glm::dvec3(worldFromView[3]);
+}
+
+glm::dvec3 pixelDirection(const Case& made, Random& random) {
+  const Rectangle& viewport = made.frame.viewport;
+  const int x = random.integer(0, viewport.width - 1), y = random.integer(0, viewport.height - 1);
+  return reference::CameraRays(made.frame.camera, viewport.width, viewport.height).ray(x, y).direction;
+}
+
+void makeMedium(Case& made, const AxisSet& simple) {
+  Medium& medium = made.frame.medium;
+  medium.constituents = {{{0.05F, 0.1F, 0.2F}, Phase::HenyeyGreenstein, 0.3F}};
+  if (Random random(made.seed, Axis::Medium); !simple.has(Axis::Medium)) {
+    medium.constituents.clear();
+    Random family = Random::ofFamily(made.seed, Axis::Medium);
+    const int count = family.chance(0.05) ? 0 : family.integer(1, kMaxConstituents);
+    const bool isGrey = family.chance(0.3), isExtreme = random.chance(0.4);
+    const auto sigma = [&] {
+      if (random.chance(0.05)) return 0.0F;
+      return static_cast<float>(isExtreme ? random.logUniform(1e-7, 1e4) : random.logUniform(1e-3, 1));
+    };
+    const auto colour = [&] {
+      const float grey = sigma();
+      return isGrey ? Rgb{grey, grey, grey} : Rgb{sigma(), sigma(), sigma()};
+    };
+    for (int i = 0; i < count; ++i) {
+      Constituent constituent;
+      constituent.scattering = colour();
+      constituent.phase = static_cast<Phase>(family.integer(0, 3));
+      constituent.g = static_cast<float>(random.chance(0.3) ? random.pick({-0.999, 0.999, 0.0, 0.99, -0.99})
+                                                            : random.uniform(-0.95, 0.95));
+      medium.constituents.push_back(constituent);
+    }
+    if (family.chance(0.3)) medium.absorption = colour();
+  }
+  if (Random random(made.seed, Axis::FarDistance); !simple.has(Axis::FarDistance))
+    medium.farDistance = random.chance(0.3) ? kInfinity : random.logUniform(0.01, 1e4);
+  else
+    medium.farDistance = 30;
+  // A ray without end in a medium without extinction has no finite answer, in some channel, with light without end.
+  for (std::size_t c = 0; c < 3; ++c) {
+    float extinction = medium.absorption[c];
+    for (const Constituent& constituent : medium.constituents)
+      extinction += constituent.scattering[c];
+    if (extinction < 1e-6F && std::isinf(medium.farDistance)) medium.farDistance = 100;
+  }
+}
+
+void makeSettings(Case& made, const AxisSet& simple) {
+  Settings& settings = made.anySettings;
+  if (Random random = Random::ofFamily(made.seed, Axis::Filter); !simple.has(Axis::Filter) && random.chance(0.4))
+    made.frame.settings.shadowFilter = ShadowFilter::Bilinear;
+  settings.shadowFilter = made.frame.settings.shadowFilter;
+  if (Random random(made.seed, Axis::Settings); !simple.has(Axis::Settings)) {
+    Random family = Random::ofFamily(made.seed, Axis::Settings);
+    settings.technique = family.pick({Technique::Tree, Technique::Epipolar, Technique::Epipolar, Technique::LowRank});
+    settings.minMaxTree = family.chance(0.9);
+    settings.lowRankTerms = family.integer(1, 8);
+    const bool spreads = family.chance(0.4);
+    settings.slices = static_cast<int>(random.logUniform(1, 8192));
+    settings.samples = 64 * static_cast<int>(random.logUniform(1, 128));
+    settings.rowStep = random.integer(1, 8);
+    settings.breakThreshold = static_cast<float>(random.logUniform(1e-6, 1e3));
+    settings.bendThreshold =
+        random.chance(0.2) ? std::numeric_limits<float>::infinity() : static_cast<float>(random.logUniform(1e-6, 1e3));
+    settings.leastWeight = static_cast<float>(random.pick({0.0, 1.0, random.uniform()}));
+    settings.averageThreshold = static_cast<float>(random.pick({0.0, 1.0, random.uniform()}));
+    if (spreads) settings.spreadThreshold = static_cast<float>(random.logUniform(1e-6, 10));
+    settings.sampleBudget = random.chance(0.3) ? static_cast<int>(random.logUniform(4096, 1e7)) : 0;
+  }
+}
+
+Case makeCase(std::uint64_t seed, const AxisSet& simple) {
+  Case made;
+  made.seed = seed;
+  makePicture(made, simple);
+  makeLights(made, simple);
+  makeMaps(made, simple);
+  makeMedium(made, simple);
+  makeSettings(made, simple);
+  if (Random random = Random::ofFamily(seed, Axis::Relation); !simple.has(Axis::Relation))
+    made.relation = static_cast<Relation>(random.integer(0, kRelations - 1));
+  if (Random random(seed, Axis::World); !simple.has(Axis::World)) {
+    made.worldScale = random.chance(0.5) ? 1 : random.logUniform(1e-4, 1e5);
+    const double offset = random.chance(0.5) ? 0 : random.logUniform(1, 1e7);
+    tests::transformWorld(made.frame, made.worldScale, offset * random.direction());
+  }
+  return made;
+}
+
+} // namespace stress

@@ -1,0 +1,120 @@
+#include "CaseRig.h"
+
+#include "gl/ReadBack.h"
+
+#include <stdexcept>
+
+using namespace tyndall;
+using host::gl;
+
+namespace stress {
+
+namespace {
+
+constexpr float kPoison = 12345; // of texels outside the viewport, which nothing may write
+
+GLenum formatOf(DepthForm form) {
+  constexpr GLenum kFormats[] = {GL_R32F, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT16};
+  return kFormats[static_cast<int>(form)];
+}
+
+std::size_t countOf(int width, int height) {
+  return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+}
+
+} // namespace
+
+CaseRig::CaseRig(const Case& made, Effect& effect) : frame(made.frame), made_(made), effect_(effect) {
+  const Rectangle& viewport = frame.viewport;
+  width_ = viewport.x + viewport.width + made.margin.x;
+  height_ = viewport.y + viewport.height + made.margin.y;
+  inscatter_ = host::makeTexture2D(GL_RGBA32F, width_, height_);
+  transmittance_ = host::makeTexture2D(GL_RGBA32F, width_, height_);
+  frame.output = {inscatter_.name(), transmittance_.name()};
+  scene_.camera = frame.camera;
+  scene_.medium = frame.medium;
+  scene_.filter = frame.settings.shadowFilter;
+  scene_.width = viewport.width;
+  scene_.height = viewport.height;
+  uploadDepth(made.depth, made.depthForm);
+  maps_.reserve(made.maps.size());
+  scene_.lights = frame.lights;
+  for (std::size_t i = 0; i < made.maps.size(); ++i)
+    uploadMaps(i);
+}
+
+void CaseRig::uploadDepth(const std::vector<float>& depth, DepthForm form) {
+  const Rectangle& viewport = frame.viewport;
+  std::vector<float> all(countOf(width_, height_), 0.37F);
+  for (int y = 0; y < viewport.height; ++y)
+    for (int x = 0; x < viewport.width; ++x)
+      all[countOf(width_, viewport.y + y) + static_cast<std::size_t>(viewport.x + x)] =
+          depth[countOf(viewport.width, y) + static_cast<std::size_t>(x)];
+  depth_ = tests::floatTexture(formatOf(form), width_, height_, all);
+  frame.depth.texture = depth_.name();
+  scene_.depth = depth;
+  if (form == DepthForm::Float) return;
+  all = host::readDepth(depth_.name(), width_, height_);
+  for (int y = 0; y < viewport.height; ++y)
+    for (int x = 0; x < viewport.width; ++x)
+      scene_.depth[countOf(viewport.width, y) + static_cast<std::size_t>(x)] =
+          all[countOf(width_, viewport.y + y) + static_cast<std::size_t>(viewport.x + x)];
+}
+
+void CaseRig::setDepth(const std::vector<float>& depth) { uploadDepth(depth, DepthForm::Float); }
+
+void CaseRig::uploadMaps(std::size_t light) {
+  const LightMaps& maps = made_.maps[light];
+  scene_.shadows.push_back(maps.image);
+  if (maps.image.width == 0) return;
+  maps_.emplace_back(maps.image, maps.layout, kPoison, maps.format);
+  ShadowMap& shadow = frame.lights[light].shadow;
+  maps_.back().enter(frame.lights[light]);
+  if (maps.isCompared) {
+    const GLenum target = maps.layout == tests::Layout::Atlas ? GL_TEXTURE_2D : GL_TEXTURE_2D_ARRAY;
+    gl().BindTexture(target, shadow.texture);
+    gl().TexParameteri(target, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  }
+  if (maps.format != GL_DEPTH_COMPONENT24 && maps.format != GL_DEPTH_COMPONENT16) return;
+  const auto readBack = [&](GLuint texture, std::vector<float>& values) {
+    values.clear();
+    for (int layer = 0; layer < maps.image.layers; ++layer) {
+      const std::vector<float> one = host::readDepthArray(texture, maps.image.width, maps.image.height, layer);
+      values.insert(values.end(), one.begin(), one.end());
+    }
+  };
+  readBack(shadow.texture, scene_.shadows.back().depth);
+  if (!maps.image.glassDepth.empty()) readBack(frame.lights[light].glass.depth, scene_.shadows.back().glassDepth);
+}
+
+Picture CaseRig::render(const Settings& settings) {
+  const std::vector<float> poison(4 * countOf(width_, height_), kPoison);
+  for (const host::GlTexture* output : {&inscatter_, &transmittance_}) {
+    gl().BindTexture(GL_TEXTURE_2D, output->name());
+    gl().TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_FLOAT, poison.data());
+  }
+  frame.settings = settings;
+  if (const Status status = effect_.render(frame); !status) throw std::runtime_error(status.message);
+  Picture picture;
+  const Rectangle& viewport = frame.viewport;
+  const auto read = [&](const host::GlTexture& texture) {
+    const std::vector<float> all = host::readColour(texture.name(), width_, height_, 3);
+    reference::Image image(viewport.width, viewport.height);
+    for (int y = 0; y < height_; ++y)
+      for (int x = 0; x < width_; ++x) {
+        const float* texel = &all[3 * (countOf(width_, y) + static_cast<std::size_t>(x))];
+        const int column = x - viewport.x, row = y - viewport.y;
+        const bool isInside = column >= 0 && row >= 0 && column < viewport.width && row < viewport.height;
+        if (isInside)
+          image.set(column, row, {texel[0], texel[1], texel[2]});
+        else if (!(texel[0] == kPoison && texel[1] == kPoison && texel[2] == kPoison))
+          picture.isWithinViewport = false;
+      }
+    return image;
+  };
+  picture.inscatter = read(inscatter_);
+  picture.transmittance = read(transmittance_);
+  return picture;
+}
+
+} // namespace stress

@@ -1,0 +1,262 @@
+#include "Checks.h"
+
+#include "Compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <stdexcept>
+
+using namespace tyndall;
+
+namespace stress {
+
+namespace {
+
+constexpr int kTruePixels = 24; // that map-exact is asked about
+
+struct Run {
+  std::string name;
+  Settings settings;
+  bool isHeld = false; ///< to the tolerance; the others are counted: how near they come is theirs to choose
+};
+
+/// As fine as the frame can be drawn: what is left is what the technique itself does.
+Settings finest(Technique technique, ShadowFilter filter) {
+  Settings settings;
+  settings.technique = technique;
+  settings.shadowFilter = filter;
+  settings.slices = settings.samples = 8192;
+  settings.averageThreshold = 0;
+  settings.breakThreshold = settings.bendThreshold = 1e-6F; // every sample is marched
+  settings.lowRankTerms = 8;
+  return settings;
+}
+
+std::vector<Run> runsOf(const Case& made) {
+  const ShadowFilter filter = made.frame.settings.shadowFilter;
+  std::vector<Run> runs = {{"tree", finest(Technique::Tree, filter), true},
+                           {"epipolar", finest(Technique::Epipolar, filter), true},
+                           {"lowrank", finest(Technique::LowRank, filter), false}};
+  for (const auto& [name, profile] : {std::pair{"performance", Profile::Performance},
+                                      std::pair{"balanced", Profile::Balanced}, std::pair{"high", Profile::High}}) {
+    runs.push_back({name, settingsOf(profile), false});
+    runs.back().settings.shadowFilter = filter;
+  }
+  runs.push_back({"any settings", made.anySettings, false});
+  return runs;
+}
+
+bool isGood(double value) { return std::isfinite(value) && value >= 0; }
+
+/// The largest value of the pixels around one.
+double mostAround(const reference::Image& image, int x, int y, std::size_t channel, int reach) {
+  double most = 0;
+  for (int v = std::max(0, y - reach); v <= std::min(image.height - 1, y + reach); ++v)
+    for (int u = std::max(0, x - reach); u <= std::min(image.width - 1, x + reach); ++u)
+      most = std::max(most, image.rgb[image.index(u, v) + channel]);
+  return most;
+}
+
+class Checker {
+public:
+  Checker(const Case& made, Effect& effect) : made_(made), rig_(made, effect) {}
+
+  Outcome run(const std::set<std::string>& runs) {
+    exactSettings_ = made_.frame.settings;
+    exactSettings_.technique = Technique::Exact;
+    exact_ = draw("exact", exactSettings_);
+    unshadowed_ = drawUnshadowed();
+    comparable_ = comparableIn();
+    checkBound("exact", exact_.inscatter, 0, 1e-3);
+    checkTruth();
+    for (const Run& one : runsOf(made_))
+      if (runs.empty() || runs.count(one.name) > 0) checkRun(one);
+    return std::move(outcome_);
+  }
+
+  /// Of the picture of another frame.
+  void checkRelation(Effect& effect, Outcome& outcome) {
+    const std::optional<Case> other = related(made_, made_.relation);
+    if (!other) return;
+    CaseRig rig(*other, effect);
+    const std::string name = std::string(nameOf(made_.relation));
+    for (const Technique technique : {Technique::Exact, Technique::Epipolar}) {
+      const Settings settings =
+          technique == Technique::Exact ? exactSettings_ : finest(technique, exactSettings_.shadowFilter);
+      const reference::Image before = rig_.render(settings).inscatter;
+      const reference::Image picture = rig.render(settings).inscatter;
+      outcome.pictures += 2;
+      const reference::Image expected = relatedPicture(before, made_.relation);
+      Range range;
+      const std::vector<double> wanted = withoutGlare(expected.rgb, comparable_);
+      range.include(wanted);
+      const double scale = meanOfFinite(wanted);
+      const std::string check = (technique == Technique::Exact ? "exact: " : "epipolar: ") + name;
+      double error = errorBeyond(picture.rgb, range, std::max(scale, comparable_.least));
+      outcome.errors[check] = error;
+      const double limit = technique == Technique::Exact ? 1e-3 : kTolerance;
+      if (error <= limit) continue;
+      outcome.findings.push_back({check, error, limit, ""});
+    }
+  }
+
+private:
+  Picture draw(const std::string& name, const Settings& settings) {
+    ++outcome_.pictures;
+    Picture picture = rig_.render(settings);
+    for (const reference::Image* image : {&picture.inscatter, &picture.transmittance})
+      for (std::size_t i = 0; i < image->rgb.size(); ++i)
+        if (!isGood(image->rgb[i])) {
+          add(name + ": finite", image->rgb[i], 0,
+              fmt::format("{} of pixel {}", image == &picture.inscatter ? "inscatter" : "transmittance", i / 3));
+          break;
+        }
+    if (!picture.isWithinViewport) add(name + ": viewport", 1, 0, "a texel outside was written");
+    return picture;
+  }
+
+  reference::Image drawUnshadowed() {
+    const Frame frame = rig_.frame;
+    for (Light& light : rig_.frame.lights) {
+      light.shadow = {};
+      light.glass = {};
+    }
+    reference::Image image = draw("unshadowed", exactSettings_).inscatter;
+    rig_.frame = frame;
+    return image;
+  }
+
+  void add(const std::string& check, double value, double limit, const std::string& detail = "") {
+    outcome_.findings.push_back({check, value, limit, detail});
+  }
+
+  Comparable comparableIn() const {
+    Comparable comparable;
+    const glm::dvec3 eye = EyeFrame(made_.frame.camera).position;
+    for (const Light& light : made_.frame.lights) {
+      const double distance = glm::length(reference::toVec3(light.position) - eye);
+      if (light.kind != LightKind::Directional && distance < 1e-13 * glm::length(eye) + 1e-12 * made_.worldScale)
+        comparable.isLampAtEye = true;
+    }
+    comparable.least = std::max(1e-6 * meanOfFinite(withoutGlare(unshadowed_.rgb, comparable)), 1e-30);
+    return comparable;
+  }
+
+  /// No light comes from shadows: nowhere more than without them, in the pixel or in those that it is interpolated
+  /// from.
+  void checkBound(const std::string& name, const reference::Image& image, int reach, double slack) {
+    double worst = 0;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        for (std::size_t c = 0; c < 3; ++c) {
+          const double value = image.rgb[image.index(x, y) + c];
+          const double most = mostAround(unshadowed_, x, y, c, reach);
+          if (value > most + comparable_.least) worst = std::max(worst, value / std::max(most, comparable_.least) - 1);
+        }
+    if (worst > slack) add(name + ": bound", worst, slack, "more than without shadows");
+  }
+
+  void checkTruth() {
+    Random random(made_.seed, Axis::Size);
+    const Rectangle& viewport = made_.frame.viewport;
+    std::vector<glm::ivec2> pixels;
+    std::vector<double> values;
+    for (int i = 0; i < kTruePixels; ++i) {
+      const glm::ivec2 pixel(random.integer(0, viewport.width - 1), random.integer(0, viewport.height - 1));
+      if (made_.isOdd[static_cast<std::size_t>(pixel.y * viewport.width + pixel.x)]) continue;
+      pixels.push_back(pixel);
+      const reference::Rgb value = exact_.inscatter.at(pixel.x, pixel.y);
+      values.insert(values.end(), {value.r, value.g, value.b});
+    }
+    if (pixels.empty()) return;
+    if (comparable_.isLampAtEye) { // the truth has no end
+      outcome_.illConditioned.push_back("exact");
+      return;
+    }
+    const std::vector<double> truth = truthOf(rig_.scene(), pixels, comparable_);
+    Range range;
+    range.include(truth);
+    const double scale = std::max(meanOfFinite(truth), comparable_.least);
+    double error = errorBeyond(values, range, scale);
+    outcome_.errors["exact"] = error;
+    if (error <= kTolerance) return;
+    const Range rounded = roundedTruth(rig_.scene(), pixels, comparable_);
+    const double left = errorBeyond(values, rounded, scale);
+    if (left <= kTolerance)
+      outcome_.illConditioned.push_back("exact");
+    else
+      add("exact: map-exact", error, kTolerance,
+          fmt::format("{:.3g} beyond what rounding explains; {}", left, worstOf(values, truth, pixels)));
+  }
+
+  /// The value that is farthest from the truth, where that is finite.
+  std::string worstOf(const std::vector<double>& values, const std::vector<double>& truth,
+                      const std::vector<glm::ivec2>& pixels) const {
+    std::size_t worst = 0;
+    const auto errorOf = [&](std::size_t i) { return std::isfinite(truth[i]) ? std::abs(values[i] - truth[i]) : -1; };
+    for (std::size_t i = 1; i < values.size(); ++i)
+      if (errorOf(i) > errorOf(worst)) worst = i;
+    const glm::ivec2 pixel = pixels[worst / 3];
+    return fmt::format("pixel ({}, {}) has {:.6g} for {:.6g}, unshadowed {:.6g}", pixel.x, pixel.y, values[worst],
+                       truth[worst], unshadowed_.rgb[unshadowed_.index(pixel.x, pixel.y) + worst % 3]);
+  }
+
+  void checkRun(const Run& one) {
+    const Picture picture = draw(one.name, one.settings);
+    // Of what a pixel may be interpolated from: its own ray, samples next to it, or regular samples.
+    const bool isTree = one.settings.technique == Technique::Tree;
+    checkBound(one.name, picture.inscatter, isTree ? 0 : one.isHeld ? 2 : 16, isTree ? 2e-3 : 0.05);
+    if (one.name == "any settings") return;
+    Range range;
+    const std::vector<double> exact = withoutGlare(exact_.inscatter.rgb, comparable_);
+    range.include(exact);
+    const double scale = std::max(meanOfFinite(exact), comparable_.least);
+    const double error = errorBeyond(picture.inscatter.rgb, range, scale);
+    outcome_.errors[one.name] = error;
+    if (error <= kTolerance || !std::isfinite(error)) return; // what is not finite has been said
+    double left = error;
+    for (const int count : {9, 100}) {
+      if (left <= kTolerance || (count > 9 && !one.isHeld)) break;
+      const Range displaced = displacedExact(rig_, exactSettings_, one.settings.rowStep, comparable_, count);
+      outcome_.pictures += count;
+      left = errorBeyond(picture.inscatter.rgb, displaced, scale);
+    }
+    outcome_.errors[one.name + ", beyond half a pixel and half a texel"] = left;
+    if (left > kTolerance && one.isHeld)
+      add(one.name + ": exact", error, kTolerance,
+          fmt::format("{:.3g} beyond what half a pixel and half a texel explain", left));
+  }
+
+  const Case& made_;
+  CaseRig rig_;
+  Settings exactSettings_;
+  Picture exact_;
+  reference::Image unshadowed_;
+  Comparable comparable_;
+  Outcome outcome_;
+};
+
+} // namespace
+
+const std::vector<std::string>& runNames() {
+  static const std::vector<std::string> names = {"exact",    "tree", "epipolar",     "lowrank", "performance",
+                                                 "balanced", "high", "any settings", "relation"};
+  return names;
+}
+
+Outcome check(const Case& made, Effect& effect, const std::set<std::string>& runs) {
+  Outcome outcome;
+  try {
+    Checker checker(made, effect);
+    outcome = checker.run(runs);
+    if (runs.empty() || runs.count("relation") > 0) checker.checkRelation(effect, outcome);
+  } catch (const std::runtime_error& error) {
+    outcome.findings.push_back({"status", 0, 0, error.what()});
+  }
+  for (const std::string& error : tests::testContext().takeErrors())
+    outcome.findings.push_back({"GL error", 0, 0, error});
+  return outcome;
+}
+
+} // namespace stress

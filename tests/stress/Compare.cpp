@@ -1,0 +1,128 @@
+#include "Compare.h"
+
+#include "reference/CameraRays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+using namespace tyndall;
+
+namespace stress {
+
+namespace {
+
+Mat4 moved(const Mat4& clip, const glm::dvec3& ndc) {
+  return tests::toMat4(glm::translate(glm::dmat4(1), ndc) * reference::toMat4(clip));
+}
+
+void moveViews(std::vector<Light>& lights, const std::function<glm::dvec3(std::size_t light)>& by) {
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    for (ShadowView& view : lights[i].shadow.views)
+      view.clipFromWorld = moved(view.clipFromWorld, by(i));
+}
+
+} // namespace
+
+void Range::include(const std::vector<double>& values) {
+  if (low.empty()) low = high = values;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    // What is infinite in one of the answers may be anything: a lamp lies on the ray.
+    if (!std::isfinite(values[i]) || !std::isfinite(high[i]))
+      low[i] = -reference::kInfinity, high[i] = reference::kInfinity;
+    else
+      low[i] = std::min(low[i], values[i]), high[i] = std::max(high[i], values[i]);
+  }
+}
+
+double errorBeyond(const std::vector<double>& values, const Range& range, double scale) {
+  double sum = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) return reference::kInfinity;
+    const double error = std::max({range.low[i] - values[i], values[i] - range.high[i], 0.0});
+    sum += error * error;
+  }
+  if (sum == 0) return 0;
+  return scale > 0 ? std::sqrt(sum / static_cast<double>(values.size())) / scale : reference::kInfinity;
+}
+
+double meanOfFinite(const std::vector<double>& values) {
+  double sum = 0;
+  int count = 0;
+  for (const double value : values)
+    if (std::isfinite(value)) sum += value, ++count;
+  return count > 0 ? sum / count : 0;
+}
+
+std::vector<double> withoutGlare(std::vector<double> values, const Comparable& comparable) {
+  constexpr double kGlare = 1e6;
+  std::vector<double> sorted = values;
+  const auto usual = sorted.begin() + static_cast<std::ptrdiff_t>(3 * sorted.size() / 4);
+  std::nth_element(sorted.begin(), usual, sorted.end());
+  const double most = comparable.isLampAtEye ? comparable.least : kGlare * std::max(*usual, comparable.least);
+  for (double& value : values)
+    if (value > most) value = reference::kInfinity;
+  return values;
+}
+
+std::vector<double> truthOf(const reference::MapScene& scene, const std::vector<glm::ivec2>& pixels,
+                            const Comparable& comparable) {
+  std::vector<double> values;
+  for (const reference::PixelAnswer& answer : reference::mapExact(scene, pixels))
+    values.insert(values.end(), {answer.inscatter.r, answer.inscatter.g, answer.inscatter.b});
+  return withoutGlare(std::move(values), comparable);
+}
+
+Range roundedTruth(const reference::MapScene& scene, const std::vector<glm::ivec2>& pixels,
+                   const Comparable& comparable) {
+  constexpr double kRounding = 1e-6, kOfWorld = 1e-14;
+  constexpr float kSteps = 2.5e-7F; // two steps of a float
+  Range range;
+  range.include(truthOf(scene, pixels, comparable));
+  for (const float side : {-1.0F, 1.0F}) {
+    reference::MapScene other = scene;
+    for (float& depth : other.depth)
+      if (depth != 0 && depth != 1) depth *= 1 + side * kSteps;
+    range.include(truthOf(other, pixels, comparable));
+    for (const glm::dvec3& axis : {glm::dvec3(1, 1, 0), glm::dvec3(1, -1, 0), glm::dvec3(0, 0, 1)}) {
+      other = scene;
+      moveViews(other.lights, [&](std::size_t) { return kRounding * side * axis; });
+      range.include(truthOf(other, pixels, comparable));
+    }
+    // Where the light is, relative to the eye.
+    const glm::dvec3 eye(glm::inverse(reference::toMat4(scene.camera.viewFromWorld))[3]);
+    for (const glm::dvec3& axis : {glm::dvec3(1, 0.1, 0.3), glm::dvec3(-0.2, 1, 0.1), glm::dvec3(0.1, -0.3, 1)}) {
+      other = scene;
+      for (Light& light : other.lights) {
+        const glm::dvec3 position = reference::toVec3(light.position);
+        const double step = side * (kRounding * glm::length(position - eye) + kOfWorld * glm::length(eye));
+        light.position = toVec3(position + step * glm::normalize(axis));
+        light.direction = toVec3(glm::normalize(reference::toVec3(light.direction)) + kRounding * side * axis);
+      }
+      range.include(truthOf(other, pixels, comparable));
+    }
+  }
+  return range;
+}
+
+Range displacedExact(CaseRig& rig, const Settings& exact, int rowStep, const Comparable& comparable, int count) {
+  Range range;
+  const Frame frame = rig.frame;
+  Random random(frame.lights.size(), Axis::Size);
+  for (int i = 0; i < count; ++i) {
+    // Each pixel has a slice at another distance: what lies between matters as much as what lies farthest.
+    const auto share = [&] { return i == 0 ? 0 : i < 9 ? random.pick({-0.99, 0.99}) : random.uniform(-0.99, 0.99); };
+    const glm::dvec2 halfPixel = glm::dvec2(share(), share()) / glm::dvec2(frame.viewport.width, frame.viewport.height);
+    const glm::dvec2 ofTexel = double(rowStep) * glm::dvec2(share(), share());
+    rig.frame.camera.clipFromView = moved(frame.camera.clipFromView, glm::dvec3(halfPixel, 0));
+    moveViews(rig.frame.lights, [&](std::size_t light) {
+      const reference::ShadowImage& map = rig.scene().shadows[light];
+      return map.width > 0 ? glm::dvec3(ofTexel / glm::dvec2(map.width, map.height), 0) : glm::dvec3(0);
+    });
+    range.include(withoutGlare(rig.render(exact).inscatter.rgb, comparable));
+    rig.frame = frame;
+  }
+  return range;
+}
+
+} // namespace stress

@@ -1,0 +1,72 @@
+#include "Report.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace stress {
+
+void Report::add(std::uint64_t seed, const Outcome& outcome, double seconds) {
+  ++frames_;
+  pictures_ += static_cast<std::uint64_t>(outcome.pictures);
+  if (seconds > longest_) longest_ = seconds, longestSeed_ = seed;
+  for (const auto& [run, error] : outcome.errors) {
+    std::size_t i = 0;
+    while (i < kErrorClasses.size() && !(error <= kErrorClasses[i]))
+      ++i;
+    ++errors_[run][i];
+  }
+  for (const std::string& run : outcome.illConditioned)
+    ++illConditioned_[run];
+}
+
+void Report::addFinding(std::uint64_t seed, const Finding& finding, const std::string& simple) {
+  findings_.push_back({{"seed", seed},
+                       {"check", finding.check},
+                       {"value", finding.value},
+                       {"limit", finding.limit},
+                       {"detail", finding.detail},
+                       {"simple", simple}});
+}
+
+void Report::merge(const nlohmann::json& other) {
+  frames_ += other.at("frames").get<std::uint64_t>();
+  pictures_ += other.at("pictures").get<std::uint64_t>();
+  if (const double seconds = other.at("longest_seconds"); seconds > longest_)
+    longest_ = seconds, longestSeed_ = other.at("longest_seed");
+  for (const auto& [run, counts] : other.at("errors").items())
+    for (std::size_t i = 0; i < counts.size(); ++i)
+      errors_[run][i] += counts[i].get<std::uint64_t>();
+  for (const auto& [run, count] : other.at("ill_conditioned").items())
+    illConditioned_[run] += count.get<std::uint64_t>();
+  for (const nlohmann::json& finding : other.at("findings"))
+    findings_.push_back(finding);
+}
+
+nlohmann::json Report::json() const {
+  return {{"frames", frames_},           {"pictures", pictures_},
+          {"longest_seconds", longest_}, {"longest_seed", longestSeed_},
+          {"errors", errors_},           {"ill_conditioned", illConditioned_},
+          {"findings", findings_}};
+}
+
+std::string Report::text() const {
+  std::string text =
+      fmt::format("{} frames, {} pictures, {} findings; the longest frame (seed {}) took {:.2f} s\n\n| rRMSE |",
+                  frames_, pictures_, findings_.size(), longestSeed_, longest_);
+  for (const double end : kErrorClasses)
+    text += fmt::format(" <= {:g} |", end);
+  text += " more | ill-conditioned |\n|---|";
+  for (std::size_t i = 0; i < kErrorClasses.size() + 2; ++i)
+    text += "---|";
+  text += '\n';
+  for (const auto& [run, counts] : errors_) {
+    text += "| " + run + " |";
+    for (const std::uint64_t count : counts)
+      text += fmt::format(" {} |", count);
+    const auto ill = illConditioned_.find(run);
+    text += fmt::format(" {} |\n", ill == illConditioned_.end() ? 0 : ill->second);
+  }
+  return text;
+}
+
+} // namespace stress

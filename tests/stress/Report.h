@@ -1,0 +1,33 @@
+// What many random frames come to.
+#pragma once
+
+#include "Checks.h"
+
+#include <nlohmann/json.hpp>
+
+namespace stress {
+
+/// Upper ends of the classes that errors are counted in; one more class for what is above.
+inline constexpr std::array<double, 6> kErrorClasses = {1e-5, 1e-4, 1e-3, 1e-2, kTolerance, 0.5};
+
+class Report {
+public:
+  void add(std::uint64_t seed, const Outcome& outcome, double seconds);
+  void addFinding(std::uint64_t seed, const Finding& finding, const std::string& simple);
+  void merge(const nlohmann::json& other);
+
+  nlohmann::json json() const;
+  std::string text() const; ///< for a terminal
+  std::uint64_t frames() const { return frames_; }
+  std::size_t findings() const { return findings_.size(); }
+
+private:
+  std::uint64_t frames_ = 0, pictures_ = 0;
+  double longest_ = 0; ///< seconds of a frame
+  std::uint64_t longestSeed_ = 0;
+  std::map<std::string, std::array<std::uint64_t, kErrorClasses.size() + 1>> errors_; ///< by run
+  std::map<std::string, std::uint64_t> illConditioned_;
+  std::vector<nlohmann::json> findings_;
+};
+
+} // namespace stress
