@@ -189,11 +189,10 @@ private:
     y = std::clamp(y, 0, image_.height - 1);
     const std::size_t texel = view_.offset + static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) +
                               static_cast<std::size_t>(x);
-    const double farValue = view_.reversed ? 0 : 1;
     Corner result;
     if (!image_.depth.empty()) {
       const double depth = image_.depth[texel];
-      result.hasCaster = depth != farValue && !std::isnan(depth);
+      result.hasCaster = view_.reversed ? depth > 0 : depth < 1; // none at or beyond the far value, nor one that is NaN
       result.light = depthMargin(depth);
     }
     if (light_.hasGlass) {
@@ -207,8 +206,11 @@ private:
     return result;
   }
 
-  /// Stored depth minus receiver depth, times w, positive where the receiver is nearer to the light.
+  /// Stored depth minus receiver depth, times w, positive where the receiver is nearer to the light. Infinite depth is
+  /// far from all others.
   Linear depthMargin(double depth) const {
+    constexpr double kFarFromAll = 1e30;
+    depth = std::clamp(depth, -kFarFromAll, kFarFromAll);
     const Linear margin = ndcFromDepth(light_.clipDepth, depth) * clip_.w - clip_.z;
     return view_.reversed ? -1 * margin : margin;
   }

@@ -23,10 +23,11 @@ bool finds(const Plan& plan, std::uint64_t seed, const AxisSet& simple, const st
   return false;
 }
 
-/// All axes at their simplest that the finding does not need.
-AxisSet shrunk(const Plan& plan, std::uint64_t seed, AxisSet simple, const std::string& check,
-               tyndall::Effect& effect) {
+/// All axes at their simplest that the finding does not need. `lives` is called between two frames.
+AxisSet shrunk(const Plan& plan, std::uint64_t seed, AxisSet simple, const std::string& check, tyndall::Effect& effect,
+               const std::function<void()>& lives) {
   for (int i = 0; i < kAxes; ++i) {
+    lives();
     const AxisSet simpler = simple.with(static_cast<Axis>(i));
     if (!simple.has(static_cast<Axis>(i)) && finds(plan, seed, simpler, check, effect)) simple = simpler;
   }
@@ -61,7 +62,8 @@ void send(int pipe, const nlohmann::json& message) {
     report.add(seed, outcome, secondsSince(begin));
     for (const Finding& finding : outcome.findings) {
       AxisSet simple = plan.simple;
-      if (plan.shrink && ++shrunkOf[finding.check] <= 3) simple = shrunk(plan, seed, simple, finding.check, *effect);
+      if (plan.shrink && ++shrunkOf[finding.check] <= 3)
+        simple = shrunk(plan, seed, simple, finding.check, *effect, [&] { send(pipe, {{"begin", seed}}); });
       report.addFinding(seed, finding, simple.text());
     }
     send(pipe, {{"end", seed}, {"report", report.json()}});

@@ -143,3 +143,24 @@ TEST_CASE("an orthographic camera has no sums of tints: its rays cross a light r
   CHECK(errorOf(rig, truth, 8) <= 7.5e-4);
   CHECK_FALSE(hasPass("light 0 tint sums"));
 }
+
+TEST_CASE(
+    "low rank comes to none of the light at least and to all of it at most, where it is no approximation any more") {
+  for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot})
+    for (const float g : {-0.99F, 0.0F, 0.99F})
+      for (const float sigma : {0.05F, 5.0F}) {
+        CAPTURE(static_cast<int>(kind), g, sigma);
+        tests::ShaftRig rig(48, 32);
+        rig.scene.frame.medium.constituents = {{{sigma, 0.1F * sigma, 0.3F * sigma}, Phase::HenyeyGreenstein, g}};
+        rig.addLight(tests::shaftLight(kind), 64);
+        const reference::Image picture = rig.picture(Technique::LowRank);
+        Light& light = rig.scene.frame.lights[0];
+        light.shadow = {};
+        const reference::Image most = rig.picture(Technique::Exact);
+        CHECK(tests::isFiniteAndNonNegative(picture));
+        double beyond = 0;
+        for (std::size_t i = 0; i < most.rgb.size(); ++i)
+          beyond = std::max(beyond, picture.rgb[i] - 1.002 * most.rgb[i]);
+        CHECK(beyond <= 1e-30);
+      }
+}

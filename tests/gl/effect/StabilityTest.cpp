@@ -172,6 +172,27 @@ TEST_CASE("a camera on a shadow view's near plane, far plane and plane of no pro
     }
 }
 
+TEST_CASE("a lamp at the eye lights nothing outside its cone, wherever rounding of the camera's matrix puts it") {
+  for (const glm::dvec3& offset : {glm::dvec3(0), glm::dvec3(123.4, -56.7, 891.2), glm::dvec3(1e6, 3e5, -2e6)})
+    for (const Vec3& direction : {Vec3{0, 0, 1}, Vec3{0, 1, 0}, Vec3{1, 0.1, 0.2}})
+      for (const double outer : {0.02, 0.6}) {
+        CAPTURE(offset.x, direction[0], direction[2], outer);
+        tests::SceneRig rig;
+        Light& light = rig.addLight(LightKind::Spot, tests::Casters::None);
+        light.direction = direction;
+        light.outerConeAngle = outer;
+        light.innerConeAngle = 0.5 * outer;
+        tests::transformWorld(rig.frame, 1, offset);
+        rig.frame.lights[0].position =
+            toVec3(glm::dvec3(glm::inverse(reference::toMat4(rig.frame.camera.viewFromWorld))[3]));
+        for (const Technique technique : {Technique::Exact, Technique::Tree, Technique::Epipolar}) {
+          rig.frame.settings.technique = technique;
+          const reference::Image image = rig.render().inscatter;
+          CHECK(std::count(image.rgb.begin(), image.rgb.end(), 0.0) == static_cast<std::ptrdiff_t>(image.rgb.size()));
+        }
+      }
+}
+
 // On a border either texel may count: the picture lies between those of a camera a little to either side.
 TEST_CASE("rays along the shadow map's axes and exactly on texel borders") {
   for (const bool orthographic : {false, true})
