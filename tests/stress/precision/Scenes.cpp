@@ -164,8 +164,27 @@ Scene copied(bool glass) {
           [rig, maps, depth](Effect& effect) { return rig->scene.render(effect).inscatter; }, nullptr};
 }
 
-reference::Image colourOf(tests::ShaftRig& rig, Effect& effect, const Output& output) {
-  const host::GlTexture colour = rig.scene.makeColour(GL_RGBA32F, std::vector<float>(4 * kWidth * kHeight, 0.25F));
+// A sun's map as distances from its near plane, glass of 8 bits.
+Scene copiedGlass() {
+  const Rig rig = rigOf({"", kSun, Technique::Epipolar, false, true});
+  Light& light = rig->scene.frame.lights[0];
+  light.shadow.encoding = DepthEncoding::Axial;
+  light.shadow.scale.unit = 59; // from plane to plane
+  std::vector<float> rgba;
+  const std::vector<float>& rgb = rig->scene.shadow(0).glassColour;
+  for (std::size_t i = 0; i < rgb.size(); i += 3)
+    rgba.insert(rgba.end(), {rgb[i], rgb[i + 1], rgb[i + 2], 1});
+  const auto glass = std::make_shared<host::GlTexture>(tests::floatTextureArray(GL_RGBA8, kMapSize, kMapSize, 1, rgba));
+  light.glass.colour = glass->name();
+  return {"distances, glass of 8 bits", [rig, glass](Effect& effect) { return rig->scene.render(effect).inscatter; },
+          nullptr};
+}
+
+reference::Image colourOf(tests::ShaftRig& rig, Effect& effect, const Output& output, GLenum format = GL_RGBA32F) {
+  std::vector<float> back; // which half floats do not hold
+  for (int i = 0; i < 4 * kWidth * kHeight; ++i)
+    back.push_back(0.1F + 0.0137F * static_cast<float>(i % 11));
+  const host::GlTexture colour = rig.scene.makeColour(format, back);
   Frame frame = rig.scene.frame;
   frame.output = output;
   const Status status = effect.render(frame);
@@ -179,6 +198,10 @@ void addComposites(std::vector<Scene>& all) {
   const Rig rig = rigOf({"", kSun, Technique::Epipolar, true});
   all.push_back({"colour copied",
                  [rig](Effect& effect) { return colourOf(*rig, effect, {}); },
+                 nullptr,
+                 {{}, {}, Compositing::Copy}});
+  all.push_back({"half colour copied",
+                 [rig](Effect& effect) { return colourOf(*rig, effect, {}, GL_RGBA16F); },
                  nullptr,
                  {{}, {}, Compositing::Copy}});
   all.push_back({"colour copied, inscatter kept",
@@ -253,6 +276,7 @@ std::vector<Scene> studyScenes() {
   all.push_back(multisampled(kSpot));
   all.push_back(copied(false));
   all.push_back(copied(true));
+  all.push_back(copiedGlass());
   addComposites(all);
   addReuse(all);
   if (tests::hasAvsm()) all.push_back(smoky());

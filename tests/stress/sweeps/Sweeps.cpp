@@ -101,7 +101,7 @@ void addRolls(std::vector<Sweep>& all, LightKind kind) {
 // The eye goes from `place` by t along `way`, looking along `gaze`.
 Sweep dolly(const std::string& name, const Light& light, const glm::dvec3& place, const glm::dvec3& way,
             const glm::dvec3& gaze, double reach) {
-  return {name, "world units", ladder(reach, 10), [light] { return rigOf(light); },
+  return {name, "world units", ladder(reach, 4), [light] { return rigOf(light); },
           [=](tests::ShaftRig& rig, double t) {
             const glm::dvec3 eye = place + t * glm::normalize(way);
             rig.look(tests::lookAt(eye, eye + gaze));
