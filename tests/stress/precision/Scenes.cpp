@@ -203,7 +203,8 @@ void addComposites(std::vector<Scene>& all) {
   all.push_back({"half colour copied",
                  [rig](Effect& effect) { return colourOf(*rig, effect, {}, GL_RGBA16F); },
                  nullptr,
-                 {{}, {}, Compositing::Copy}});
+                 {{}, {}, Compositing::Copy},
+                 "colour"});
   all.push_back({"colour copied, inscatter kept",
                  [rig](Effect& effect) { return colourOf(*rig, effect, {rig->scene.frame.output.inscatter, 0}); },
                  nullptr,
