@@ -80,7 +80,7 @@ void growLeaves(tests::ShaftRig& rig, int size) {
 void addPlain(std::vector<Scene>& all) {
   const auto bilinear = [](tests::ShaftRig& rig) { rig.scene.frame.settings.shadowFilter = ShadowFilter::Bilinear; };
   const auto spread = [](tests::ShaftRig& rig) { rig.scene.frame.settings.spreadThreshold = 0.02F; };
-  const auto leaves = [](tests::ShaftRig& rig) { growLeaves(rig, 256); };
+  const auto leaves = [](tests::ShaftRig& rig) { growLeaves(rig, 1024); };
   const auto filteredLeaves = [bilinear, leaves](tests::ShaftRig& rig) {
     bilinear(rig);
     leaves(rig);
