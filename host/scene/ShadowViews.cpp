@@ -71,16 +71,28 @@ struct Frustum {
     return result;
   }
 
-  /// The world positions of the four corner rays at a view depth.
+  /// Where rays of a slice begin: at the eye, if not farther on.
+  double startOf(const Slice& slice) const {
+    return std::isfinite(slice.start) ? slice.start : std::min(0.0, nearDepth);
+  }
+
+  /// The positions of the four corner rays at a view depth, in view space.
   std::array<glm::dvec3, 4> corners(double depth) const {
-    const glm::dmat4 worldFromView = glm::inverse(viewFromWorld);
     std::array<glm::dvec3, 4> result;
     for (int i = 0; i < 4; ++i) {
       const glm::dvec4 clip = unproject(i % 2 == 0 ? -1 : 1, i < 2 ? -1 : 1, 1 - 1e-3);
-      glm::dvec3 view = glm::dvec3(clip) / clip.w;
-      view = isPerspective ? view * (depth / -view.z) : glm::dvec3(view.x, view.y, -depth);
-      result[i] = glm::dvec3(worldFromView * glm::dvec4(view, 1));
+      const glm::dvec3 view = glm::dvec3(clip) / clip.w;
+      result[i] = isPerspective ? view * (depth / -view.z) : glm::dvec3(view.x, view.y, -depth);
     }
+    return result;
+  }
+
+  /// Of the slice's two ends, in world space.
+  std::array<glm::dvec3, 8> worldCorners(const Slice& slice) const {
+    const glm::dmat4 worldFromView = glm::inverse(viewFromWorld);
+    std::array<glm::dvec3, 8> result;
+    for (int i = 0; i < 8; ++i)
+      result[i] = glm::dvec3(worldFromView * glm::dvec4(corners(i < 4 ? startOf(slice) : slice.end)[i % 4], 1));
     return result;
   }
 };
@@ -139,27 +151,27 @@ std::vector<glm::dvec2> visibleOutline(const CasterShadow& shadow, const Frustum
   return polygon;
 }
 
+/// An edge-on caster has no width and a flat one no depth, but a box needs both.
+glm::dvec2 withMargin(const glm::dvec2& halfSize, const CasterShadow& shadow) {
+  return glm::max(halfSize * (1 + 2 * kMargin), glm::dvec2(kMargin * shadow.size));
+}
+
 tyndall::Mat4 boxAround(const CasterShadow& shadow, const Rectangle& rectangle, double farthest,
                         const ClipConvention& convention) {
-  // An edge-on caster has no width and a flat one no depth, but a box needs both.
-  const glm::dvec2 halfSize = glm::max(rectangle.halfSize * (1 + 2 * kMargin), glm::dvec2(kMargin * shadow.size));
   const double depthMargin = kMargin * std::max(farthest - shadow.nearest, 0.01 * shadow.size);
   const glm::dvec2 axis = rectangle.axis;
   glm::dmat4 boxFromLight(1);
   boxFromLight[0] = {axis.x, -axis.y, 0, 0};
   boxFromLight[1] = {axis.y, axis.x, 0, 0};
   boxFromLight[3] = {-glm::dot(axis, rectangle.centre), -glm::dot(glm::dvec2(-axis.y, axis.x), rectangle.centre), 0, 1};
-  const glm::dmat4 clipFromBox =
-      orthographic(halfSize.x, halfSize.y, shadow.nearest - depthMargin, farthest + depthMargin, convention);
+  const glm::dmat4 clipFromBox = orthographic(rectangle.halfSize.x, rectangle.halfSize.y, shadow.nearest - depthMargin,
+                                              farthest + depthMargin, convention);
   return toMat4(clipFromBox * boxFromLight * shadow.lightFromWorld);
 }
 
 /// The view depths between cascades: the practical scheme of Zhang et al. 2006, a mean of logarithmic and even steps.
-std::vector<Slice> splitView(const Frustum& frustum, const WorldGeometry& geometry, int cascades) {
+std::vector<Slice> splitView(const Frustum& frustum, double end, int cascades) {
   constexpr double kLogarithmicShare = 0.75;
-  double end = -kInfinity;
-  for (const glm::dvec3& point : geometry.points)
-    end = std::max(end, frustum.viewDepth(point));
   const double start = frustum.isPerspective ? std::max(frustum.nearDepth, 1e-3 * end) : frustum.nearDepth;
 
   std::vector<Slice> slices = {Slice{}};
@@ -186,11 +198,96 @@ double inSteps(double distance, int up) {
 double farthestOf(const CasterShadow& shadow, const Frustum& frustum, const Slice& slice) {
   double farthest = shadow.farthest;
   if (std::isinf(slice.end)) return farthest;
-  const double start = std::isfinite(slice.start) ? slice.start : std::min(0.0, frustum.nearDepth);
-  for (const double depth : {start, slice.end})
-    for (const glm::dvec3& corner : frustum.corners(depth))
-      farthest = std::max(farthest, -(shadow.lightFromWorld * glm::dvec4(corner, 1)).z);
+  for (const glm::dvec3& corner : frustum.worldCorners(slice))
+    farthest = std::max(farthest, -(shadow.lightFromWorld * glm::dvec4(corner, 1)).z);
   return farthest;
+}
+
+/// What a cascade holds of the light's plane.
+struct Cascade {
+  Rectangle rectangle;
+  double farthest = 0; ///< distance along the light
+};
+
+std::vector<Cascade> tightCascades(const CasterShadow& shadow, const WorldGeometry& geometry, const Frustum& frustum,
+                                   int cascades) {
+  double end = -kInfinity;
+  for (const glm::dvec3& point : geometry.points)
+    end = std::max(end, frustum.viewDepth(point));
+  std::vector<Cascade> result;
+  for (const Slice& slice : splitView(frustum, end, cascades)) {
+    const std::vector<glm::dvec2> outline = visibleOutline(shadow, frustum, slice);
+    if (outline.empty()) continue;
+    Rectangle rectangle = smallestRectangle(outline);
+    rectangle.halfSize = withMargin(rectangle.halfSize, shadow);
+    result.push_back({rectangle, farthestOf(shadow, frustum, slice)});
+  }
+  return result;
+}
+
+/// The ball around a slice that ends. Centre and radius are of view space, and so the same however the camera stands.
+struct Ball {
+  glm::dvec3 centre{0};
+  double radius = 0;
+};
+
+// On the line between the middles of the two ends, at the same distance t from the corners of both where it can be:
+// t^2 length^2 + near^2 = (1 - t)^2 length^2 + far^2.
+Ball ballAround(const Frustum& frustum, const Slice& slice) {
+  const auto middleOf = [](const auto& corners) { return 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]); };
+  const auto reachOf = [](const auto& corners, const glm::dvec3& from) {
+    double reach = 0;
+    for (const glm::dvec3& corner : corners)
+      reach = std::max(reach, glm::distance(from, corner));
+    return reach;
+  };
+  const auto nearCorners = frustum.corners(frustum.startOf(slice));
+  const auto farCorners = frustum.corners(slice.end);
+  const glm::dvec3 from = middleOf(nearCorners);
+  const glm::dvec3 along = middleOf(farCorners) - from;
+  const double near = reachOf(nearCorners, from);
+  const double far = reachOf(farCorners, from + along);
+  const double t = std::clamp(0.5 + 0.5 * (far * far - near * near) / glm::dot(along, along), 0.0, 1.0);
+  const glm::dvec3 centre = from + t * along;
+  return {centre, std::max(reachOf(nearCorners, centre), reachOf(farCorners, centre))};
+}
+
+/// Around what is held by `texels` texels per side, one of them to spare, so that its corner can lie on the lattice
+/// that goes through `origin`.
+Rectangle onLattice(const glm::dvec2& centre, const glm::dvec2& halfSize, const glm::dvec2& origin, int texels) {
+  if (texels < 2) return {centre, {1, 0}, halfSize}; // nothing to spare
+  const glm::dvec2 texel = 2.0 * halfSize / double(texels - 1);
+  const glm::dvec2 corner = origin + glm::floor((centre - halfSize - origin) / texel) * texel;
+  return {corner + 0.5 * double(texels) * texel, {1, 0}, 0.5 * double(texels) * texel};
+}
+
+std::vector<Cascade> steadyCascades(const CasterShadow& shadow, const Frustum& frustum, int cascades, int texels) {
+  glm::dvec2 low(kInfinity);
+  glm::dvec2 high(-kInfinity);
+  for (const glm::dvec2& corner : shadow.outline) {
+    low = glm::min(low, corner);
+    high = glm::max(high, corner);
+  }
+  const glm::dvec2 origin(shadow.lightFromWorld[3]);
+  std::vector<Cascade> result;
+  for (const Slice& slice : splitView(frustum, shadow.size, cascades)) {
+    Cascade cascade{{0.5 * (low + high), {1, 0}, 0.5 * (high - low)}, shadow.farthest};
+    if (std::isfinite(slice.end)) {
+      const Ball ball = ballAround(frustum, slice);
+      const glm::dmat4 lightFromView = shadow.lightFromWorld * glm::inverse(frustum.viewFromWorld);
+      const glm::dvec3 centre(lightFromView * glm::dvec4(ball.centre, 1));
+      for (int i = 0; i < 2; ++i)
+        if (ball.radius < cascade.rectangle.halfSize[i]) {
+          cascade.rectangle.centre[i] = centre[i];
+          cascade.rectangle.halfSize[i] = ball.radius;
+        }
+      cascade.farthest = std::max(cascade.farthest, ball.radius - centre.z);
+    }
+    cascade.rectangle =
+        onLattice(cascade.rectangle.centre, withMargin(cascade.rectangle.halfSize, shadow), origin, texels);
+    result.push_back(cascade);
+  }
+  return result;
 }
 
 void fitDirectional(tyndall::Light& light, const WorldGeometry& geometry, const tyndall::Camera& camera,
@@ -199,15 +296,13 @@ void fitDirectional(tyndall::Light& light, const WorldGeometry& geometry, const 
       casterShadow(geometry, glm::dvec3(light.direction[0], light.direction[1], light.direction[2]));
   if (!(shadow.size > 0)) return;
   const Frustum frustum(camera);
-  const ClipConvention convention{options.reversedDepth, options.clipDepth};
+  const std::vector<Cascade> cascades = options.steadyTexels > 0
+                                            ? steadyCascades(shadow, frustum, options.cascades, options.steadyTexels)
+                                            : tightCascades(shadow, geometry, frustum, options.cascades);
   std::vector<tyndall::ShadowView>& views = light.shadow.views;
-  for (const Slice& slice : splitView(frustum, geometry, options.cascades)) {
-    const std::vector<glm::dvec2> outline = visibleOutline(shadow, frustum, slice);
-    if (outline.empty()) continue;
-    const double farthest = farthestOf(shadow, frustum, slice);
-    views.push_back(
-        {boxAround(shadow, smallestRectangle(outline), farthest, convention), static_cast<int>(views.size())});
-  }
+  for (const Cascade& cascade : cascades)
+    views.push_back({boxAround(shadow, cascade.rectangle, cascade.farthest, {options.reversedDepth, options.clipDepth}),
+                     static_cast<int>(views.size())});
 }
 
 // ---------------------------------------------------------------------------------------------------------------------

@@ -13,7 +13,8 @@ namespace host {
 struct ShadowOptions {
   bool reversedDepth = false;
   tyndall::ClipDepth clipDepth = tyndall::ClipDepth::NegativeOneToOne;
-  int cascades = 1;       ///< 1 to 4, of a directional light
+  int cascades = 1;     ///< 1 to 4, of a directional light
+  int steadyTexels = 0; ///< texels per side of a directional light's maps that stay in place; 0: they follow the camera
   bool cubeFaces = false; ///< of point lights: turned as GL's cube maps have them
   double seconds = 0;     ///< the time of the pose, for smoke whose source moves
 };
@@ -25,8 +26,11 @@ struct ShadowOptions {
 /// Directional: a box along the light that holds all casters, turned about the light's direction for the
 /// smallest area. Sideways it is cut to what a camera ray can reach of the casters' shadows, so every point of a camera
 /// ray outside it is lit. Cascades divide the view depth up to the scene's end; each takes in all casters towards the
-/// light. Spot: one pyramid around the cone. Point: six pyramids of 90 degrees. Their depth range is that of the
-/// casters inside.
+/// light. With steadyTexels texels stay where they are in the world while the camera turns and moves, and its
+/// projection stays: boxes keep their size and their turn about the light, and move by whole texels of a lattice from
+/// the world's origin. Each cascade but the last then holds a ball around its part of the view, the last one all
+/// casters; the view depth is divided up to the length of the casters' bounds. So they are coarser. Spot: one pyramid
+/// around the cone. Point: six pyramids of 90 degrees. Their depth range is that of the casters inside.
 ///
 /// Where nothing can block the light there are no views: then the light needs no shadow map.
 /// Returns what could not be fitted, a line each.

@@ -162,8 +162,9 @@ void SceneDrawer::fitViews(const settings::State& state, const Moment& moment,
                            host::Notes& notes) const {
   const bool cubeFaces = state.mapForm.layout == host::MapLayout::Cube;
   const bool areScenes = moment.sun || !state.lights;
-  const host::ShadowOptions shadowOptions{state.reversedDepth, clipDepthOf(state), state.cascades, cubeFaces,
-                                          moment.seconds};
+  const int steadyTexels = state.steadyShadows ? state.shadowSize : 0;
+  const host::ShadowOptions shadowOptions{state.reversedDepth, clipDepthOf(state), state.cascades,
+                                          steadyTexels,        cubeFaces,          moment.seconds};
   for (tyndall::Light& light : frame.lights) {
     addOnce(notes, host::fitShadowViews(light, fittedTo(moment), worldFromNode, frame.camera, shadowOptions));
     const bool isCascaded = light.shadow.views.size() > 1 && light.kind == tyndall::LightKind::Directional;

@@ -102,6 +102,10 @@ const Table<State>& mapsTable() {
             number("cascadeFade", &State::cascadeFade, from(0, 0.5),
                    "share of a cascade's width over which it fades into the next")
                 .withOption("--cascade-fade"),
+            switchOf("steadyShadows", &State::steadyShadows,
+                     "texels of a directional light's shadow maps, which are coarser, stay in place while the camera "
+                     "moves")
+                .withOption("--steady-shadows", OptionForm::FlagOn),
             renamed(part("mapForm", &State::mapForm, formRows()[0]), "layout"),
             renamed(part("mapForm", &State::mapForm, formRows()[1]), "encoding"),
             switchOf("reversedDepth", &State::reversedDepth, "camera and shadow depth fall from 1 to 0")

@@ -58,10 +58,11 @@ struct State {
   tyndall::Tuning tuning;
   int shadowSize = 4096;
   int cascades = 1;
-  double cascadeFade = 0.1; ///< of the scene's lights
-  host::MapForm mapForm;    ///< in which the effect is handed shadow and glass maps
-  bool avsm = true;         ///< whether smoke and strands cast shadows
-  int avsmSize = 256;       ///< texels per side
+  double cascadeFade = 0.1;   ///< of the scene's lights
+  bool steadyShadows = false; ///< whether texels of directional lights' maps stay in place while the camera moves
+  host::MapForm mapForm;      ///< in which the effect is handed shadow and glass maps
+  bool avsm = true;           ///< whether smoke and strands cast shadows
+  int avsmSize = 256;         ///< texels per side
   int avsmNodes = 8;
   double smokeDensity = 1;    ///< times what the scene says
   double strandWidth = 1;     ///< the same

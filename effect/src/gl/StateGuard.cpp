@@ -45,6 +45,15 @@ Int integer(const Functions& gl, Enum name) {
   return value;
 }
 
+// None for one that the engine has deleted: it goes with the first of ours that becomes current, and no call gives it
+// back.
+Int currentProgram(const Functions& gl) {
+  const Int program = integer(gl, CURRENT_PROGRAM);
+  Int deleted = 0;
+  if (program != 0) gl.GetProgramiv(static_cast<Uint>(program), DELETE_STATUS, &deleted);
+  return deleted != 0 ? 0 : program;
+}
+
 template <typename Action>
 void forEachCapability(const Functions& gl, Action&& action) {
   for (const Enum capability : kCapabilities)
@@ -111,7 +120,7 @@ StateGuard::StateGuard(const Functions& gl, StateMode mode) : gl_(gl), mode_(mod
 StateGuard::~StateGuard() { restores() ? restore() : leave(); }
 
 void StateGuard::save() {
-  program_ = integer(gl_, CURRENT_PROGRAM);
+  program_ = currentProgram(gl_);
   vertexArray_ = integer(gl_, VERTEX_ARRAY_BINDING);
   framebuffer_ = integer(gl_, DRAW_FRAMEBUFFER_BINDING);
   renderbuffer_ = integer(gl_, RENDERBUFFER_BINDING);

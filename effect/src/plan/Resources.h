@@ -142,6 +142,7 @@ struct ResourceRow {
   Size (*drawn)(const Extent&); ///< the part that a draw fills
   Lifetime lifetime;
   const char* reason;
+  const char* study = ""; ///< its line in tests/stress/precision/README.md; "" for what is given or in no picture
 };
 
 const ResourceRow& rowOf(Resource resource);

@@ -227,3 +227,27 @@ TEST_CASE("parameters of the engine's textures are not touched") {
   for (std::size_t i = 0; i < textures.size(); ++i)
     CHECK(parametersOf(textures[i].first, textures[i].second) == before[i]);
 }
+
+TEST_CASE("a current program that the engine has deleted leaves no GL error behind") {
+  FullFrame full;
+  for (const bool valid : {true, false}) {
+    const GLuint program = gl().CreateProgram();
+    const GLuint shader = gl().CreateShader(GL_VERTEX_SHADER);
+    const char* const text = "#version 330 core\nvoid main() { gl_Position = vec4(0.0); }\n";
+    gl().ShaderSource(shader, 1, &text, nullptr);
+    gl().CompileShader(shader);
+    gl().AttachShader(program, shader);
+    gl().LinkProgram(program);
+    gl().UseProgram(program);
+    gl().DeleteProgram(program); // which stays current until another is
+    gl().DeleteShader(shader);
+    Frame frame = full.rig.frame;
+    if (!valid) frame.viewport.width = 0;
+    CHECK(static_cast<bool>(tests::testEffect().render(frame)) == valid);
+    CHECK(gl().GetError() == GL_NO_ERROR);
+    GLint current = 0;
+    gl().GetIntegerv(GL_CURRENT_PROGRAM, &current);
+    CHECK(current == (valid ? 0 : static_cast<GLint>(program)));
+    gl().UseProgram(0);
+  }
+}

@@ -201,7 +201,9 @@ GLint isLinked(const Program& program) {
 }
 
 void GLAD_API_PTR getProgramiv(GLuint name, GLenum what, GLint* value) {
-  Program& program = names().programs[name];
+  const auto known = names().programs.find(name);
+  if (known == names().programs.end()) return gl().GetProgramiv(name, what, value); // the engine's
+  Program& program = known->second;
   if (what == kCompletionStatus) {
     *value = isComplete(program);
     if (*value)

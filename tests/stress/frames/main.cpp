@@ -36,7 +36,7 @@ int runTool(int argc, const char* const* argv) {
   try {
     plan.simple = stress::AxisSet::parse(simple);
   } catch (const std::invalid_argument& error) {
-    render::failUsage("--simple", error.what(), "must be axes between commas: see tests/stress/Axes.h");
+    render::failUsage("--simple", error.what(), "must be axes between commas: see tests/stress/frames/Axes.h");
   }
   if (!runs.empty())
     for (const std::string& name : render::splitList("--runs", runs)) {
