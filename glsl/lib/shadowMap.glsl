@@ -19,21 +19,18 @@ uniform sampler2D glassDepth;
 #endif
 #endif
 
-// Infinitely far before the near plane, as a number: where the ray meets it can be calculated.
-const float kFarBefore = -1e30;
-
 // Depth stored in a texel, growing away from the light; a texel without a caster never blocks, nor does one that is not a number,
 // which makes comparisons false.
 float casterDepth(ivec2 texel, int view) {
   float depth = shadowViews[view].depthSign * TEXEL(shadowMap, texel, view).r;
-  return depth < shadowViews[view].farDepth ? max(depth, kFarBefore) : 3e38;
+  return depth < shadowViews[view].farDepth ? depth : 3e38;
 }
 
 #if GLASS
 // The same of the glass: one that is not a number has nothing behind it.
 float paneDepth(ivec2 texel, int view) {
   float depth = shadowViews[view].depthSign * TEXEL(glassDepth, texel, view).r;
-  return depth < 3e38 ? max(depth, kFarBefore) : 3e38;
+  return depth < 3e38 ? depth : 3e38;
 }
 // NaN and negative values count as black, values above 1 as clear.
 vec3 paneTint(ivec2 texel, int view) {
