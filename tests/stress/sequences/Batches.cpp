@@ -61,6 +61,10 @@ void report(Shared& shared, const Recipe& recipe, const std::string& trouble) {
   if (at < kMostFailures) std::snprintf(shared.failures[at], kMostText, "%s", text.c_str());
 }
 
+bool isOver(const Plan& plan, Clock::time_point start) {
+  return plan.seconds > 0 && secondsSince(start) >= plan.seconds;
+}
+
 /// The process of a batch.
 class Worker {
 public:
@@ -68,7 +72,7 @@ public:
     if (!reference_) throw std::runtime_error("no effect can be created");
   }
   void run(std::uint64_t first, std::uint64_t end) {
-    for (std::uint64_t seed = first; seed < end; ++seed) {
+    for (std::uint64_t seed = first; seed < end && !isOver(plan_, start_); ++seed) {
       Recipe recipe = plan_.recipe;
       recipe.seed = seed;
       shared_.seed = seed;
@@ -93,15 +97,17 @@ private:
 
   const Plan& plan_;
   Shared& shared_;
+  Clock::time_point start_;
   tests::FaultyContext context_;
   std::unique_ptr<Effect> reference_;
 };
 
-[[noreturn]] void work(const Plan& plan, Shared& shared, std::uint64_t first, std::uint64_t end) {
+[[noreturn]] void work(const Plan& plan, Shared& shared, Clock::time_point start, std::uint64_t first,
+                       std::uint64_t end) {
   prctl(PR_SET_PDEATHSIG, SIGKILL); // no batch without who waits for it
   int code = 0;
   try {
-    Worker(plan, shared).run(first, end);
+    Worker(plan, shared, start).run(first, end);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "tyndall-stress-sequences: %s\n", error.what());
     code = 1;
@@ -137,14 +143,13 @@ Outcome runBatches(const Plan& plan) {
   const Clock::time_point start = Clock::now();
   Outcome outcome;
   const std::uint64_t end = plan.first + plan.count;
-  for (std::uint64_t first = plan.first; first < end;) {
-    if (plan.seconds > 0 && secondsSince(start) >= plan.seconds) break;
+  for (std::uint64_t first = plan.first; first < end && !isOver(plan, start);) {
     const std::uint64_t last = std::min(first + static_cast<std::uint64_t>(plan.batch), end);
     const SharedMemory shared;
     std::fflush(stdout);
     const pid_t child = fork();
     if (child < 0) throw std::runtime_error("no process can be made");
-    if (child == 0) work(plan, *shared.operator->(), first, last);
+    if (child == 0) work(plan, *shared.operator->(), start, first, last);
     const std::string trouble = await(child, *shared.operator->(), plan.patience);
     first = last;
     if (!trouble.empty()) {

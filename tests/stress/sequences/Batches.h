@@ -11,7 +11,7 @@ namespace stress {
 struct Plan {
   std::uint64_t first = 1; ///< seeds, one after the other
   std::uint64_t count = 1;
-  double seconds = 0;   ///< no batch begins after them; 0: no limit
+  double seconds = 0;   ///< no sequence begins after them; 0: no limit
   int batch = 500;      ///< sequences of a process
   double patience = 60; ///< seconds that one sequence may take, first compilations included
   Recipe recipe;        ///< of all but the seed

@@ -88,7 +88,10 @@ void Engine::tellFacts() {
   const CameraState& camera = state_.cameras[static_cast<std::size_t>(state_.eye)];
   Hash shared;
   shared.add(state_.width).add(state_.height).add(cameraOf(camera, {0, 0}, state_.width, state_.height).clipFromView);
-  shared.add(frame_.camera.viewFromWorld).add(camera.zeroToOne).add(state_.settings.technique);
+  shared.add(frame_.camera.viewFromWorld).add(camera.zeroToOne);
+  facts_ = {};
+  facts_.camera = shared.value();
+  shared.add(state_.settings.technique);
   for (const Constituent& part : state_.medium.constituents)
     shared.add(part.scattering).add(part.phase).add(part.g);
   shared.add(state_.medium.absorption).add(state_.medium.farDistance);
@@ -97,7 +100,6 @@ void Engine::tellFacts() {
   everything.add(s.debugView).add(s.shadowFilter).add(s.slices).add(s.samples).add(s.rowStep).add(s.minMaxTree);
   everything.add(s.averageThreshold).add(s.leastWeight).add(s.bendThreshold).add(s.sampleBudget).add(s.spreadThreshold);
   everything.add(state_.depthLayout).add(state_.depthFormat);
-  facts_ = {};
   for (const LightState& light : state_.lights) {
     everything.add(light.id).add(light.kind).add(light.turn).add(light.colour).add(light.hasMap).add(light.glass);
     everything.add(light.litOutside).add(light.mapSize).add(light.layout).add(light.format).add(light.cascades);

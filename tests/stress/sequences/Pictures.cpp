@@ -2,6 +2,7 @@
 
 #include "gl/Gl.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <sstream>
@@ -14,16 +15,9 @@ namespace {
 
 constexpr std::array<const char*, 3> kTargets = {"colour", "inscatter", "transmittance"};
 
-// Units in the last place that a format may round another way, relative to the value.
-double roundingOf(Format format) {
-  switch (format) {
-  case GL_RGBA16F:
-    return 0x1p-10;
-  case GL_R11F_G11F_B10F:
-    return 0x1p-5;
-  default:
-    return 0;
-  }
+// What a format rounds, relative to the value: once where a composite is blended, once a light where those are.
+double roundingOf(Format format, std::size_t lights) {
+  return format == GL_RGBA16F ? 0x1p-11 * static_cast<double>(1 + std::max(lights, std::size_t{1})) : 0;
 }
 
 class Walk {
@@ -96,10 +90,12 @@ void addDifference(Difference& all, const std::vector<float>& got, const std::ve
 Difference differenceOf(const Contents& got, const Contents& wanted, const ScriptState& state) {
   const Walk walk(state);
   Difference all;
+  const std::size_t lights = state.lights.size();
+  const double ofOutputs = roundingOf(state.outputFormat, lights);
+  const double ofColour = roundingOf(state.colourFormat, lights) + ofOutputs; // an output may be composited
   for (std::size_t i = 0; i < got.size(); ++i)
-    if (!got[i].empty())
-      addDifference(all, got[i], wanted[i], walk, roundingOf(i == 0 ? state.colourFormat : state.outputFormat),
-                    kTargets[i]);
+    if (!got[i].empty() && got[i].size() == wanted[i].size())
+      addDifference(all, got[i], wanted[i], walk, i == 0 ? ofColour : ofOutputs, kTargets[i]);
   return all;
 }
 

@@ -28,11 +28,6 @@ bool holdOthers(const FrameFacts& now, const FrameFacts& last) {
                      [&](const Content& a, const Content& b) { return !differ(a, b); });
 }
 
-bool isSmall(const std::array<double, 2>& jitter) {
-  const double most = std::max(std::abs(jitter[0]), std::abs(jitter[1]));
-  return most > 0 && most <= 0.5;
-}
-
 } // namespace
 
 void Rests::judge(bool busy) {
@@ -71,9 +66,7 @@ Share ReuseModel::compare(const FrameFacts& last, const FrameFacts& frame) {
   const bool stated = objects ? !frame.namesObjects : areStated(frame, last);
   const bool differs = objects ? frame.namesObjects : holdOthers(frame, last);
   if (!frame.drawsInParts && differs) return Share::All;
-  const bool sameJitter = frame.jitter == last.jitter;
-  const bool jitterAlone = objects && frame.drawsInParts && isSmall(frame.jitter) && isSmall(last.jitter);
-  if (frame.everything == last.everything && stated && frame.refreshFrames == 0 && (sameJitter || jitterAlone))
+  if (frame.everything == last.everything && stated && frame.refreshFrames == 0 && frame.jitter == last.jitter)
     return Share::Nothing;
   return Share::Any;
 }
@@ -98,7 +91,7 @@ ReuseModel::Prediction ReuseModel::predict(const FrameFacts& frame) {
   if (!eye.sure || (share == Share::Nothing && !eye.restsKnown))
     share = share == Share::All && eye.sure ? share : Share::Any;
   const bool moves = frame.jitter != eye.last->jitter;
-  return {share, share != Share::All && (eye.mixed || moves || !eye.sure), share == Share::Nothing && !moves};
+  return {share, share != Share::All && (eye.mixed || moves || !eye.sure), share == Share::Nothing};
 }
 
 void ReuseModel::drawn(const FrameFacts& frame, double share) {

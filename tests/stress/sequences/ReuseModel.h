@@ -21,7 +21,8 @@ struct Content {
 struct FrameFacts {
   std::uint64_t eye = 0, frame = 0;
   tyndall::Changes changes = tyndall::Changes::Unknown;
-  std::uint64_t shared = 0;     ///< of size, camera without its jitter, medium and technique: all depends on them
+  std::uint64_t camera = 0;     ///< of size and camera without its jitter
+  std::uint64_t shared = 0;     ///< of these, medium and technique: all depends on them
   std::uint64_t everything = 0; ///< of all that the effect compares, but for textures and the jitter
   Content depth;
   std::vector<Content> maps;

@@ -38,7 +38,7 @@ struct LightState {
   double turn = 0;
   tyndall::Rgb colour = {1, 1, 1};
   bool hasMap = true, glass = false, litOutside = true;
-  int mapSize = 16;
+  int mapSize = 12;
   MapLayout layout = MapLayout::Plain;
   Format format = 0; ///< 0: a float depth format
 };
@@ -57,7 +57,7 @@ struct FailureState {
 };
 
 struct ScriptState {
-  int width = 16, height = 12;
+  int width = 22, height = 15;
   int left = 0, bottom = 0, right = 0, top = 0; ///< pixels around the viewport
   int eye = 0;
   std::array<CameraState, kEyes> cameras;

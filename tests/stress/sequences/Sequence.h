@@ -52,7 +52,12 @@ private:
   std::optional<std::string> checkShare(Share predicted, double share);
   std::optional<std::string> checkPicture(const ScriptState& state, const Contents& got, const Contents& wanted,
                                           const ReuseModel::Prediction& prediction);
-  std::optional<Contents> drawReference(const tyndall::Frame& frame);
+  std::optional<std::string> checkKept(const ScriptState& state, const Contents& got,
+                                       const ReuseModel::Prediction& prediction);
+  std::optional<std::string> checkFull(const ScriptState& state, const Contents& got, const Contents& wanted,
+                                       bool mixesJitters);
+  std::optional<Contents> drawReference(const tyndall::Frame& frame, bool rests = false);
+  bool mayRest(const ScriptState& state);
 
   tests::FaultyContext& context_;
   tyndall::Effect* reference_;
@@ -61,7 +66,9 @@ private:
   ReuseModel model_;
   int drawsLeft_ = -1; ///< until betweenDraws gives up; negative: never
   std::unique_ptr<tyndall::Effect> effect_;
-  std::map<int, LastPicture> last_; ///< by eye
+  std::map<int, LastPicture> last_;              ///< by eye
+  std::map<int, std::vector<Contents>> jitters_; ///< by eye: the pictures in full since it was drawn so
+  std::map<int, std::uint64_t> jittered_;        ///< by eye: the camera whose last frames were jittered
   Tally tally_;
 };
 

@@ -97,8 +97,7 @@ int main(int argc, char** argv) {
     app.add_option("--seed", options.seed, "one sequence, by its seed");
     app.add_option("--first", options.plan.first, "seed of the first of many")->capture_default_str();
     app.add_option("--count", options.plan.count, "sequences")->capture_default_str();
-    app.add_option("--seconds", options.plan.seconds, "after which no batch begins; 0: no limit")
-        ->capture_default_str();
+    app.add_option("--seconds", options.plan.seconds, "after which none begins; 0: no limit")->capture_default_str();
     app.add_option("--batch", options.plan.batch, "sequences in a process")->capture_default_str();
     app.add_option("--patience", options.plan.patience, "seconds that one may take")->capture_default_str();
     app.add_option("--frames", options.plan.recipe.frames, "of each")->capture_default_str();
