@@ -68,7 +68,8 @@ bool isOver(const Plan& plan, Clock::time_point start) {
 /// The process of a batch.
 class Worker {
 public:
-  Worker(const Plan& plan, Shared& shared) : plan_(plan), shared_(shared), reference_(context_.create().effect) {
+  Worker(const Plan& plan, Shared& shared, Clock::time_point start)
+      : plan_(plan), shared_(shared), start_(start), reference_(context_.create().effect) {
     if (!reference_) throw std::runtime_error("no effect can be created");
   }
   void run(std::uint64_t first, std::uint64_t end) {
