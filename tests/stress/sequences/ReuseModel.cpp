@@ -72,7 +72,6 @@ Share ReuseModel::compare(const FrameFacts& last, const FrameFacts& frame) {
 }
 
 ReuseModel::Prediction ReuseModel::predict(const FrameFacts& frame) {
-  Prediction prediction;
   if (frame.changes == Changes::Unknown) return {Share::All};
   auto found = eyes_.find(frame.eye);
   if (found != eyes_.end() && isSurelyGone(frame.eye, found->second)) {
@@ -86,12 +85,14 @@ ReuseModel::Prediction ReuseModel::predict(const FrameFacts& frame) {
   eye.resting = eye.restsKnown && eye.rests.takeOne();
   if (eye.resting || !frame.isPicture) return {frame.isPicture || eye.resting ? Share::All : Share::Any};
   if (eye.sure && !eye.last) return {Share::All};
-  if (!eye.last) return {Share::Any, eye.mixed};
+  eye.jittered = eye.jittered || frame.jitter != std::array<double, 2>{0, 0};
+  if (!eye.last) return {Share::Any, eye.jittered};
   Share share = compare(*eye.last, frame);
   if (!eye.sure || (share == Share::Nothing && !eye.restsKnown))
     share = share == Share::All && eye.sure ? share : Share::Any;
   const bool moves = frame.jitter != eye.last->jitter;
-  return {share, share != Share::All && (eye.mixed || moves || !eye.sure), share == Share::Nothing};
+  const bool mixes = eye.jittered && share != Share::All && (eye.mixed || moves || !eye.sure);
+  return {share, mixes, share == Share::Nothing};
 }
 
 void ReuseModel::drawn(const FrameFacts& frame, double share) {
@@ -103,6 +104,7 @@ void ReuseModel::drawn(const FrameFacts& frame, double share) {
   }
   Eye& eye = eyes_[frame.eye];
   eye.surelyUsed = clock_;
+  eye.jittered = eye.jittered || frame.jitter != std::array<double, 2>{0, 0};
   if (eye.resting) {
     eye.last.reset();
     eye.sure = true;

@@ -65,7 +65,7 @@ private:
   struct Eye {
     std::optional<FrameFacts> last; ///< none: the next is drawn in full
     bool sure = true;               ///< false: what is kept is not said
-    bool restsKnown = true, mixed = false, resting = false;
+    bool restsKnown = true, mixed = false, resting = false, jittered = false;
     Rests rests;
     std::optional<bool> counted; ///< the last frame, which could reuse: it redrew too much
     std::uint64_t surelyUsed = 0, possiblyUsed = 0;
