@@ -17,19 +17,22 @@ Status noContext(const gl::Functions& gl) {
 
 } // namespace
 
+// The number is the divisor of an attribute that no draw of ours reads.
 void ContextWatch::mark() {
   static std::atomic<int> count{0};
-  number_ = -1000 - ++count % 1000000; // exact in a float
+  number_ = 1000 + ++count % 1000000;
   array_ = gl::VertexArray(gl_);
-  gl_.BindVertexArray(array_.name()); // a name becomes an object when it is first bound
-  sampler_ = gl::Sampler(gl_);
-  gl_.SamplerParameteri(sampler_.name(), gl::TEXTURE_MIN_LOD, number_);
+  gl_.BindVertexArray(array_.name());
+  gl_.VertexAttribDivisor(0, static_cast<gl::Uint>(number_));
 }
 
 bool ContextWatch::holdsMarks() const {
-  if (!gl_.IsVertexArray(array_.name()) || !gl_.IsSampler(sampler_.name())) return false;
-  gl::Int number = 0;
-  gl_.GetSamplerParameteriv(sampler_.name(), gl::TEXTURE_MIN_LOD, &number);
+  if (!gl_.IsVertexArray(array_.name())) return false;
+  gl::Int bound = 0, number = 0;
+  gl_.GetIntegerv(gl::VERTEX_ARRAY_BINDING, &bound);
+  gl_.BindVertexArray(array_.name());
+  gl_.GetVertexAttribiv(0, gl::VERTEX_ATTRIB_ARRAY_DIVISOR, &number);
+  gl_.BindVertexArray(static_cast<gl::Uint>(bound));
   return number == number_;
 }
 

@@ -28,9 +28,9 @@ private:
 
   const gl::Functions& gl_;
   bool lost_ = false;
-  // Objects of another context may have the same names: a vertex array is no other's, and a sampler keeps a number.
+  // A vertex array is no other context's, not even of one that shares objects with ours; but another context's may have
+  // its name: it keeps a number.
   gl::VertexArray array_;
-  gl::Sampler sampler_;
   gl::Int number_ = 0;
 };
 

@@ -24,7 +24,7 @@ std::set<std::string> extensionsOf(const gl::Functions& gl) {
 
 class Context {
 public:
-  explicit Context(gl::Functions& gl) : gl_(gl), extensions_(extensionsOf(gl)) {}
+  Context(gl::Functions& gl, const std::string& version) : gl_(gl), version_(version), extensions_(extensionsOf(gl)) {}
 
   bool has(const char* extension) const { return extensions_.count(extension) != 0; }
   /// A desktop context of that version, or any with the extension.
@@ -48,9 +48,7 @@ public:
 
 private:
   // It tells a texture's target in the core profile only.
-  bool isMesa() const {
-    return std::string(reinterpret_cast<const char*>(gl_.GetString(gl::VERSION))).find("Mesa") != std::string::npos;
-  }
+  bool isMesa() const { return version_.find("Mesa") != std::string::npos; }
 
   // What is of a later version than the context's, unless an extension brings it.
   void settleDesktop() {
@@ -98,6 +96,7 @@ private:
   }
 
   gl::Functions& gl_;
+  std::string version_;
   std::set<std::string> extensions_;
 };
 
@@ -111,8 +110,9 @@ std::string neededFor(int version) {
 Status loadFunctions(gl::Functions& gl, GlLoader loader, int version, const std::string& what) {
   std::string missing = gl.load(loader);
   if (!gl.GetString) return {StatusCode::NoContext, "no GL context is current on this thread"};
-  if (!gl.GetString(gl::VERSION)) return ContextWatch(gl).check();
-  const std::string text = reinterpret_cast<const char*>(gl.GetString(gl::VERSION));
+  const auto* said = gl.GetString(gl::VERSION); // once: a context may be lost between two calls
+  if (!said) return ContextWatch(gl).check();
+  const std::string text = reinterpret_cast<const char*>(said);
   if (!gl.GetIntegerv) return {StatusCode::ContextTooOld, "the loader knows no " + missing};
   gl::Int major = 0, minor = 0;
   gl.GetIntegerv(gl::MAJOR_VERSION, &major); // an error, and 0, before OpenGL 3.0
@@ -123,7 +123,7 @@ Status loadFunctions(gl::Functions& gl, GlLoader loader, int version, const std:
     return {StatusCode::ContextTooOld, "the context is \"" + text + "\": " + neededFor(version) + what};
   gl.language = embedded ? gl::Language::Essl : gl::Language::Glsl;
   if (missing.empty()) {
-    Context context(gl);
+    Context context(gl, text);
     context.settle(loader);
     missing = gl.loadOwn(loader);
     if (embedded && !context.has("GL_EXT_float_blend"))

@@ -77,8 +77,6 @@ enum class Language { Glsl, Essl };
   X(void, GenSamplers, (Sizei n, Uint * names), None)                                                                  \
   X(void, DeleteSamplers, (Sizei n, const Uint* names), None)                                                          \
   X(void, BindSampler, (Uint unit, Uint sampler), Textures)                                                            \
-  X(Boolean, IsSampler, (Uint sampler), None)                                                                          \
-  X(void, GetSamplerParameteriv, (Uint sampler, Enum name, Int * value), None)                                         \
   X(void, SamplerParameteri, (Uint sampler, Enum name, Int value), None)                                               \
   X(void, GenBuffers, (Sizei n, Uint * names), None)                                                                   \
   X(void, DeleteBuffers, (Sizei n, const Uint* names), None)                                                           \
@@ -93,6 +91,8 @@ enum class Language { Glsl, Essl };
   X(void, GenVertexArrays, (Sizei n, Uint * names), None)                                                              \
   X(void, DeleteVertexArrays, (Sizei n, const Uint* names), None)                                                      \
   X(void, BindVertexArray, (Uint array), VertexArray)                                                                  \
+  X(void, VertexAttribDivisor, (Uint index, Uint divisor), None)                                                       \
+  X(void, GetVertexAttribiv, (Uint index, Enum name, Int * value), None)                                               \
   X(void, GenFramebuffers, (Sizei n, Uint * names), None)                                                              \
   X(void, DeleteFramebuffers, (Sizei n, const Uint* names), None)                                                      \
   X(void, BindFramebuffer, (Enum target, Uint framebuffer), Framebuffers)                                              \

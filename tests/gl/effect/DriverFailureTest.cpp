@@ -41,7 +41,6 @@ bool lost = false;
 int drawsUntilLost = 0;
 GLenum GLAD_API_PTR errorOfLostContext() { return lost ? GL_CONTEXT_LOST : host::gl().GetError(); }
 GLboolean GLAD_API_PTR isArray(GLuint name) { return lost ? GL_FALSE : host::gl().IsVertexArray(name); }
-GLboolean GLAD_API_PTR isSampler(GLuint name) { return lost ? GL_FALSE : host::gl().IsSampler(name); }
 GLenum GLAD_API_PTR resetOnce() { return std::exchange(lost, false) ? GL_INNOCENT_CONTEXT_RESET : GL_NO_ERROR; }
 void GLAD_API_PTR drawUntilLost(GLenum mode, GLint first, GLsizei count) {
   if (--drawsUntilLost < 0) lost = true;
@@ -49,7 +48,6 @@ void GLAD_API_PTR drawUntilLost(GLenum mode, GLint first, GLsizei count) {
 }
 const std::map<std::string, void*> kErrors = {{"glGetError", address(errorOfLostContext)},
                                               {"glIsVertexArray", address(isArray)},
-                                              {"glIsSampler", address(isSampler)},
                                               {"glDrawArrays", address(drawUntilLost)}};
 const std::map<std::string, void*> kResetStatus = {{"glGetGraphicsResetStatus", address(resetOnce)},
                                                    {"glGetGraphicsResetStatusARB", address(resetOnce)},

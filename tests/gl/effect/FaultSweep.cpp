@@ -28,12 +28,15 @@ std::string Findings::text() const {
 }
 
 std::string nameOf(const SweepOptions& options) {
-  return nameOf(options.kind) + std::string(options.times == Times::From ? ", from the k-th on" : ", only the k-th") +
+  constexpr const char* kTimes[] = {", from the k-th on", ", only the k-th", ", by the seed k"};
+  return nameOf(options.kind) + std::string(kTimes[static_cast<std::size_t>(options.times)]) +
          (options.used ? ", used effect" : ", fresh effect");
 }
 
 bool isStatusOf(Fault kind, const Status& status) {
   switch (kind) {
+  case Fault::Any:
+    return isStatusOf(Fault::Link, status) || isStatusOf(Fault::Framebuffer, status);
   case Fault::Compile:
   case Fault::Link:
     return status.code == StatusCode::ShaderError;
@@ -65,6 +68,9 @@ FaultSweep::FaultSweep(FaultyContext& context, const FrameCase& item)
 
 Findings FaultSweep::run(const SweepOptions& options) {
   Findings findings;
+  for (int seed = options.firstSeed; options.times == Times::Random && seed < options.firstSeed + options.seeds; ++seed)
+    runOnce(options, seed, findings);
+  if (options.times == Times::Random) return findings;
   for (int call = 1; call < kMostCalls; ++call)
     if (!runOnce(options, call, findings)) return findings;
   findings.add("no end of calls", kMostCalls);

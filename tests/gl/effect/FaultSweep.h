@@ -29,6 +29,7 @@ struct SweepOptions {
   Times times = Times::From;
   bool used = false;            ///< by an effect that has drawn another frame before
   GLenum pending = GL_NO_ERROR; ///< an error of the engine's own, which it has not asked for yet
+  int firstSeed = 1, seeds = 0; ///< Times::Random
 };
 
 std::string nameOf(const SweepOptions& options);

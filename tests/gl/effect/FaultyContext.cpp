@@ -18,11 +18,41 @@ State& state() {
   return theState;
 }
 
+namespace {
+
+// By the finaliser of MurmurHash3.
+bool isChosen(int seed, int seen) {
+  std::uint32_t hash = static_cast<std::uint32_t>(seed) * 0x9E3779B9U + static_cast<std::uint32_t>(seen);
+  hash = (hash ^ (hash >> 16U)) * 0x85EBCA6BU;
+  hash = (hash ^ (hash >> 13U)) * 0xC2B2AE35U;
+  return (hash ^ (hash >> 16U)) % 8 == 0;
+}
+
+bool isDue(const State& s) {
+  switch (s.times) {
+  case Times::From:
+    return s.seen >= s.at;
+  case Times::Only:
+    return s.seen == s.at;
+  default:
+    return isChosen(s.at, s.seen);
+  }
+}
+
+// A lost context does nothing but say so.
+bool isSwallowed(Call call) {
+  State& s = state();
+  if (s.callsLeft > 0 && --s.callsLeft == 0) s.lost = true;
+  return s.lost && call != Call::GetError && call != Call::GetGraphicsResetStatus;
+}
+
+} // namespace
+
 bool fails(Fault kind) {
   State& s = state();
-  if (s.kind != kind) return false;
+  if (s.kind != kind && s.kind != Fault::Any) return false;
   ++s.seen;
-  const bool now = s.times == Times::From ? s.seen >= s.at : s.seen == s.at;
+  const bool now = isDue(s);
   s.triggered = s.triggered || now;
   return now;
 }
@@ -37,9 +67,16 @@ namespace {
 
 // What the context recorded while ours was pending would not have been recorded.
 GLenum GLAD_API_PTR getError() {
+  if (state().lost) return GL_CONTEXT_LOST;
   const GLenum own = host::gl().GetError();
   const GLenum ours = std::exchange(state().error, GL_NO_ERROR);
   return ours != GL_NO_ERROR ? ours : own;
+}
+
+GLenum GLAD_API_PTR getResetStatus() {
+  State& s = state();
+  if (!s.lost) return host::gl().GetGraphicsResetStatus();
+  return std::exchange(s.toldOfReset, true) ? GL_NO_ERROR : GL_GUILTY_CONTEXT_RESET;
 }
 
 template <Fault kKind, auto kMember>
@@ -155,6 +192,7 @@ void replaceObjects(Targets& targets) {
 void replaceAllocations(Targets& targets) {
   replaceObjects(targets);
   targets[Call::GetError] = addressOf(getError);
+  targets[Call::GetGraphicsResetStatus] = addressOf(getResetStatus);
   targets[Call::GetIntegerv] = addressOf(getIntegerv);
   targets[Call::GetStringi] = addressOf(getStringi);
   targets[Call::CheckFramebufferStatus] = addressOf(checkStatus<&GladGLContext::CheckFramebufferStatus>);
@@ -212,8 +250,8 @@ void aim() {
 } // namespace
 
 const char* nameOf(Fault fault) {
-  constexpr const char* kNames[] = {"none",    "compile",      "link",   "binary",
-                                    "texture", "renderbuffer", "buffer", "framebuffer status"};
+  constexpr const char* kNames[] = {
+      "none", "compile", "link", "binary", "texture", "renderbuffer", "buffer", "framebuffer status", "any"};
   return kNames[static_cast<std::size_t>(fault)];
 }
 
@@ -234,6 +272,7 @@ FaultyContext::FaultyContext() {
 FaultyContext::~FaultyContext() {
   faulty::clearPrograms();
   faulty::clearWaits();
+  recover();
   state() = {};
 }
 
@@ -256,6 +295,20 @@ void FaultyContext::fail(Fault kind, int at, Times times) {
 bool FaultyContext::heal() {
   state().kind = Fault::None;
   return state().triggered;
+}
+
+void FaultyContext::loseAt(int call) {
+  state().callsLeft = call;
+  swallowsCall() = faulty::isSwallowed;
+}
+
+bool FaultyContext::isLost() const { return state().lost; }
+
+void FaultyContext::recover() {
+  faulty::State& s = state();
+  s.callsLeft = -1;
+  s.lost = s.toldOfReset = false;
+  swallowsCall() = nullptr;
 }
 
 void FaultyContext::resetCounts() {

@@ -21,12 +21,13 @@ enum class Fault {
   Renderbuffer, ///< the same for a renderbuffer
   Buffer,       ///< and for a buffer
   Framebuffer,  ///< GL_FRAMEBUFFER_UNSUPPORTED
+  Any,          ///< all of these
 };
 
 const char* nameOf(Fault fault);
 
-/// Every one from the k-th on, or the k-th only.
-enum class Times { From, Only };
+/// Every one from the k-th on, the k-th only, or one in eight, by random numbers of the seed k.
+enum class Times { From, Only, Random };
 
 /// How programs are compiled.
 enum class Compiling {
@@ -60,6 +61,12 @@ public:
 
   void fail(Fault kind, int at, Times times);
   bool heal(); ///< nothing fails any more; true if anything did
+
+  /// The GPU is reset at the k-th call from now on: GL_GUILTY_CONTEXT_RESET once, GL_CONTEXT_LOST for every error that
+  /// is asked for, and no other call does or answers anything.
+  void loseAt(int call);
+  bool isLost() const;
+  void recover(); ///< another context has taken its place
 
   void resetCounts();
   const GlCounts& counts() const;

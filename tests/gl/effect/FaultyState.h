@@ -12,6 +12,9 @@ struct State {
   int seen = 0;
   bool triggered = false;
 
+  int callsLeft = -1; ///< until the context is lost; negative: it is not going to be
+  bool lost = false, toldOfReset = false;
+
   GLenum error = GL_NO_ERROR; ///< pending, besides the context's own
 
   GlCounts counts;

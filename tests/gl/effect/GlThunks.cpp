@@ -15,6 +15,7 @@ struct Thunk<kCall, Result(GLAD_API_PTR*)(Arguments...)> {
   static Result GLAD_API_PTR call(Arguments... arguments) {
     CallRow& row = callRows()[static_cast<std::size_t>(kCall)];
     ++row.count;
+    if (swallowsCall() && swallowsCall()(kCall)) return Result();
     return reinterpret_cast<Result(GLAD_API_PTR*)(Arguments...)>(row.target)(arguments...);
   }
 };
@@ -39,6 +40,11 @@ const std::array<Entry, kCalls>& entries() {
 std::array<CallRow, kCalls>& callRows() {
   static std::array<CallRow, kCalls> rows;
   return rows;
+}
+
+Swallows& swallowsCall() {
+  static Swallows swallows = nullptr;
+  return swallows;
 }
 
 const char* nameOf(Call call) { return entries()[static_cast<std::size_t>(call)].name; }

@@ -95,6 +95,10 @@ struct CallRow {
 /// Of all functions; a loader is a plain function, so what its functions read is global.
 std::array<CallRow, kCalls>& callRows();
 
+/// True if a call is to do nothing and to answer 0; null: all do what they do.
+using Swallows = bool (*)(Call call);
+Swallows& swallowsCall();
+
 /// The name as a loader is asked for it.
 const char* nameOf(Call call);
 
