@@ -1,6 +1,7 @@
 // Shaders have 32-bit floats: what a frame comes to relative to the eye must be finite as such.
 #include "CheckValues.h"
 #include "optics/Blocks.h"
+#include "optics/Jitter.h"
 #include "optics/MapCopy.h"
 
 #include <cmath>
@@ -58,17 +59,22 @@ Status checkLightBlock(const Frame& frame, const Light& light, const std::string
 } // namespace
 
 Status checkRange(const Frame& frame) {
-  if (Status s = checkFrameBlock(optics::frameBlock(frame, {})); !s) return s;
+  Frame seen; // what is planned sees the camera without its jitter
+  seen.viewport = frame.viewport;
+  seen.camera = optics::steady(frame.camera, frame.viewport);
+  seen.depth = frame.depth;
+  seen.medium = frame.medium;
+  if (Status s = checkFrameBlock(optics::frameBlock(seen, {})); !s) return s;
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     const Light& light = frame.lights[i];
     const std::string field = "lights[" + std::to_string(i) + "].";
     if (light.shadow.texture == 0 || !light.shadow.cube.enabled) {
-      if (Status s = checkLightBlock(frame, light, field); !s) return s;
+      if (Status s = checkLightBlock(seen, light, field); !s) return s;
       continue;
     }
     Light faces = light;
     faces.shadow.views = optics::cubeViews(light);
-    if (Status s = checkLightBlock(frame, faces, field); !s) return s;
+    if (Status s = checkLightBlock(seen, faces, field); !s) return s;
   }
   return {};
 }
