@@ -115,6 +115,23 @@ TEST_CASE("patterns choose cases by their names") {
     CHECK_THROWS_AS(regress::only(cases, none), render::UsageError);
 }
 
+TEST_CASE("a value with line breaks is refused in one line") {
+  const auto cases = read(listOf(R"({"name": "a", "scene": "s"})"));
+  try {
+    regress::only(cases, "b\nc");
+    FAIL("is taken");
+  } catch (const render::UsageError& error) {
+    CHECK(std::string(error.what()) == "--only b?c: no case of the list has this name; there are a");
+  }
+  const char* const words[] = {"tyndall-render", "a.glb", "--size", "1\nx2"};
+  try {
+    render::parseOptions(4, words);
+    FAIL("is taken");
+  } catch (const render::UsageError& error) {
+    CHECK_THAT(error.what(), Catch::Contains("--size 1?x2: must be WIDTHxHEIGHT"));
+  }
+}
+
 TEST_CASE("no pattern takes longer than its length times the name's") {
   const auto cases = read(listOf(R"({"name": ")" + std::string(100, 'a') + R"(", "scene": "s"})"));
   std::string pattern;

@@ -28,8 +28,10 @@ check() {
 }
 
 say "valgrind"
-check settings build/bin/tyndall-settings-tests '~*whatever it is*' '~*compiles*' '~*tyndall-render begin*' '~random states*'
-check scene build/bin/tyndall-unit-tests '[scene]~[broken]~[shared]~[slow]'
+check settings build/bin/tyndall-settings-tests \
+  'a state that*,every setting out*,what a state leaves*,words are*,every setting has*'
+check scene build/bin/tyndall-unit-tests '[animation],[camera],[medium],[image],[files],The good file*,a PNG*,a JPEG*'
+check effect build/bin/tyndall-unit-tests 'numbers that 32*,directions may*,a range is*,*epipole*'
 check frame env GALLIUM_DRIVER=softpipe build/bin/tyndall-render build/scenes/smoke.glb --size 16x12 --shadow-size 32 \
   --no-program-cache --context osmesa --slices 16 --samples 64 --out "$out/frame.exr"
 [ -z "$failed" ] || { echo "logs: $out" && exit 1; }

@@ -2,7 +2,7 @@
 # run.sh [MINUTES [NAME...]]: fuzzes each target (all, 30 minutes) with what build-sanitize holds, two at a time. The
 # corpora grow in build-sanitize/fuzz/NAME/corpus, from those in the repository, and are merged at the end: what reaches
 # nothing new goes. Prints a table; exit status 1 if anything was found, which is in build-sanitize/fuzz/NAME/found.
-# With KEEP=1 a small part of what was found to reach new code goes into the repository's corpora.
+# With KEEP=BYTES the smallest of what is merged, so many bytes of it, becomes the repository's corpus of each target.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 build=$(cd "$here/../../.." && pwd)/build-sanitize
@@ -12,28 +12,43 @@ minutes=${1:-30}
 export ASAN_SYMBOLIZER_PATH="${ASAN_SYMBOLIZER_PATH:-$(command -v llvm-symbolizer-19 || true)}"
 export LSAN_OPTIONS="suppressions=$here/../../leaks.supp:print_suppressions=0"
 
+# Inputs are files: in memory, if there is a folder that is.
+memory=${TMPDIR:-/tmp}
+[ ! -w /dev/shm ] || memory=/dev/shm
+
 dictionary() { [ ! -f "$here/$1.dict" ] || echo "-dict=$here/$1.dict"; }
 
 # one NAME: a target, for so long as is asked; it goes on where something was found.
 one() {
   folder=$build/fuzz/$1
-  rm -rf "$folder/found" "$folder/tmp"
-  mkdir -p "$folder/corpus" "$folder/found" "$folder/tmp"
+  rm -rf "$folder/found" "$folder/merged"
+  mkdir -p "$folder/corpus" "$folder/found"
+  scratch=$(mktemp -d "$memory/tyndall-fuzz-XXXXXX")
   : >"$folder/log"
   end=$(($(date +%s) + $(awk "BEGIN { print int(60 * $minutes) }")))
   executable=$build/bin/tyndall-fuzz-$1
   while left=$((end - $(date +%s))) && [ "$left" -gt 0 ] && [ "$(find "$folder/found" -type f | wc -l)" -lt 20 ]; do
     # shellcheck disable=SC2046 # lists of words
-    TMPDIR=$folder/tmp nice -n 10 "$executable" "$folder/corpus" "$here/corpus/$1" $(dictionary "$1") \
+    TMPDIR=$scratch nice -n 10 "$executable" "$folder/corpus" "$here/corpus/$1" $(dictionary "$1") \
       $(cat "$here/options") -max_total_time="$left" -print_final_stats=1 -artifact_prefix="$folder/found/" \
       >>"$folder/log" 2>&1 || true
   done
   mkdir "$folder/merged"
   # shellcheck disable=SC2046
-  TMPDIR=$folder/tmp nice -n 10 "$executable" -merge=1 $(cat "$here/options") "$folder/merged" "$here/corpus/$1" \
+  TMPDIR=$scratch nice -n 10 "$executable" -merge=1 $(cat "$here/options") "$folder/merged" "$here/corpus/$1" \
     "$folder/corpus" >"$folder/merge.log" 2>&1
-  rm -r "$folder/corpus" "$folder/tmp"
+  rm -r "$folder/corpus" "$scratch"
   mv "$folder/merged" "$folder/corpus"
+}
+
+# keep NAME: into the repository, the smallest first.
+keep() {
+  rm -f "$here/corpus/$1"/*
+  kept=0
+  find "$build/fuzz/$1/corpus" -type f -printf '%s %p\n' | sort -n | while read -r size file; do
+    kept=$((kept + size))
+    [ "$kept" -gt "$KEEP" ] || cp "$file" "$here/corpus/$1"
+  done
 }
 
 # row NAME: what became of it.
@@ -52,6 +67,7 @@ while [ $# -gt 0 ]; do
   for name in $first $second; do
     row "$name" >"$build/fuzz/$name/row"
     names="${names:-} $name"
+    [ -z "${KEEP:-}" ] || keep "$name"
   done
   shift
   [ $# -eq 0 ] || shift
