@@ -25,7 +25,6 @@ Status tooFar(const std::string& field) { return invalid(field, "", kRule); }
 
 Status checkFrameBlock(const blocks::FrameBlock& block) {
   if (!allFinite({block.farPoint[0], block.farPoint[1], block.farPoint[2], block.nearStep})) return tooFar("camera");
-  if (!allFinite({block.extinction})) return tooFar("medium");
   if (!std::isfinite(block.depthUnit) || !std::isfinite(block.depthZero)) return tooFar("depth.scale");
   return {};
 }
@@ -44,7 +43,6 @@ bool isFinite(const blocks::CopyBlock& copy) {
 Status checkLightBlock(const Frame& frame, const Light& light, const std::string& field) {
   const blocks::LightBlock block =
       optics::lightBlock(frame, light, kMaxImageSize, kMaxImageSize, light.curves.texture != 0 ? 1 : 0);
-  if (!allFinite({block.lightPosition})) return tooFar(field + "position");
   if (!allFinite({block.boundary})) return tooFar(field + "boundary");
   const ShadowMap& shadow = light.shadow;
   const bool isCopied = shadow.cube.enabled || shadow.encoding != DepthEncoding::Window;

@@ -15,7 +15,7 @@ namespace {
 constexpr double kEndless = 1e30;      // a ray without end; float32 holds it, and exp(-sigma_t 1e30) is 0 or 1
 constexpr double kInvisibleDepth = 40; // optical depth behind which light counts for less than 5e-18
 constexpr double kLongestMarch = 1e15; // its square is a float32
-constexpr double kBrightest = 3e38;    // float32 holds it
+constexpr double kBrightest = 3e38;    // float32 holds it: colours, places and extinctions end there
 constexpr double kShortest = 1e-30;    // as float32 not 0, which would mean that there is no limit
 
 // Each constituent's share of the scattering, per channel; where a channel does not scatter, that of the one that does
@@ -151,7 +151,7 @@ bool isMonochrome(const Medium& medium) {
 blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
   blocks::FrameBlock block{};
   setCameraRays(block, frame);
-  block.extinction = extinctionOf(frame.medium);
+  block.extinction = glm::min(extinctionOf(frame.medium), kBrightest);
   block.visibleEnd = static_cast<float>(visibleDistance(frame.medium));
   const std::vector<glm::dvec3> shares = sharesOf(frame.medium);
   for (std::size_t k = 0; k < shares.size(); ++k) {
@@ -221,7 +221,7 @@ glm::vec4 marginOf(const glm::dmat4& texelFromCamera, const glm::dvec2& size, co
       // Views with a centre elsewhere are as they are meant.
       if (missed > kRounding * slope * (reach + glm::length(toGlm(light.position)))) missed = 0;
     }
-    margin[i] = static_cast<float>(kRounding * (constant + slope * reach) + missed);
+    margin[i] = static_cast<float>(std::min(kRounding * (constant + slope * reach) + missed, kBrightest));
     margin[i + 2] = static_cast<float>(kRounding * slope);
   }
   return margin;
@@ -248,7 +248,8 @@ blocks::LightBlock lightBlock(const Frame& frame, const Light& light, int shadow
   blocks::LightBlock block{};
   block.lightColour = glm::min(glm::dvec3(toGlm(light.colour)) * scatteringOf(frame.medium), kBrightest);
   block.lightDirection = direction;
-  block.lightPosition = toGlm(light.position) - origin;
+  if (light.kind != LightKind::Directional)
+    block.lightPosition = glm::clamp(toGlm(light.position) - origin, -kBrightest, kBrightest);
   block.lightRange = static_cast<float>(light.range < kBrightest ? std::max(light.range, kShortest) : 0);
   setCone(block, light);
   block.boundary = boundaryOf(light.boundary, direction, origin);

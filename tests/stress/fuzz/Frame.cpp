@@ -33,7 +33,7 @@ void requireFinite(const blocks::FrameBlock& block) {
   requireFinite(block.nearStep, "nearStep");
   requireFinite(block.depthOffset, "depthOffset");
   requireFinite(block.depthScale, "depthScale");
-  fuzz::require(block.skyEnd > 0, "skyEnd is greater than 0");
+  fuzz::require(block.skyEnd >= 0, "skyEnd is not negative");
   fuzz::require(block.visibleEnd >= 0, "visibleEnd is not negative");
   requireFinite(block.extinction, "extinction");
   requireFinite(block.depthAxis, "depthAxis");
@@ -46,15 +46,17 @@ void requireFinite(const blocks::FrameBlock& block) {
   }
 }
 
-void requireFinite(const blocks::LightBlock& block) {
+void requireFinite(const blocks::LightBlock& block, LightKind kind) {
   requireFinite(block.lightColour, "lightColour");
   fuzz::require(std::abs(glm::length(block.lightDirection) - 1) < 1e-5F, "lightDirection is unit");
   fuzz::require(block.lightRange >= 0, "lightRange is not negative");
   requireFinite(block.lightPosition, "lightPosition");
   requireFinite(block.lightRange, "lightRange");
-  requireFinite(block.outerCosine, "outerCosine");
-  requireFinite(block.innerCosine, "innerCosine");
-  requireFinite(block.falloffScale, "falloffScale");
+  if (kind == LightKind::Spot) { // other kinds' cones may be anything, and are not read
+    requireFinite(block.outerCosine, "outerCosine");
+    requireFinite(block.innerCosine, "innerCosine");
+    requireFinite(block.falloffScale, "falloffScale");
+  }
   requireFinite(block.boundary, "boundary");
   for (int i = 0; i < block.viewCount; ++i) {
     const blocks::MapView& view = block.shadowViews[i];
@@ -88,7 +90,7 @@ void makeLight(const Frame& frame, const Light& light) {
   fuzz::require(optics::brightestInscatter(frame, light) >= 0, "a light's inscatter has a bound");
   const int size = light.shadow.texture != 0 ? kMapSize : 0;
   const blocks::LightBlock block = optics::lightBlock(frame, light, size, size, light.curves.texture != 0 ? 64 : 0);
-  requireFinite(block);
+  requireFinite(block, light.kind);
   if (frame.settings.technique == Technique::Exact) return;
   const optics::SliceTable slices = optics::makeSlices(frame, light, size, size);
   requireFinite(slices, frame.settings);

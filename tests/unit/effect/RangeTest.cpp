@@ -32,9 +32,6 @@ void checkRefused(const Frame& frame, const std::string& line) {
 TEST_CASE("numbers that 32-bit floats do not hold are refused by field") {
   REQUIRE(checkValues(valid()).message.empty());
   Frame frame = valid();
-  frame.lights[1].position = {0, 1e39, 0};
-  checkRefused(frame, "Frame::lights[1].position");
-  frame = valid();
   frame.lights[0].boundary = {true, {0, 1e300, 0}, {0, 1, 0}};
   checkRefused(frame, "Frame::lights[0].boundary");
   frame = valid();
@@ -45,11 +42,6 @@ TEST_CASE("numbers that 32-bit floats do not hold are refused by field") {
   frame.lights[1].shadow.views.clear();
   frame.lights[1].shadow.cube = {true, 0, 1e-200, 1e200, false};
   checkRefused(frame, "Frame::lights[1].shadow.cube");
-  frame = valid();
-  for (Constituent& one : frame.medium.constituents)
-    one.scattering = {3e38F, 1, 1};
-  frame.medium.absorption = {3e38F, 1, 1};
-  checkRefused(frame, "Frame::medium");
   frame = valid();
   frame.depth.encoding = DepthEncoding::Axial;
   frame.depth.scale.unit = 1e40;
@@ -70,6 +62,22 @@ TEST_CASE("directions may have any length, also one whose square is no double") 
     CHECK(glm::distance(block.lightDirection, glm::vec3(0.6F, -0.8F, 0)) < 1e-6F);
     CHECK(block.boundary.y == Approx(-1.25));
   }
+}
+
+TEST_CASE("lights and extinctions beyond 32-bit floats are given to shaders as those at their ends") {
+  Frame frame = valid();
+  frame.lights[0].position = {kInfinity, kInfinity, -kInfinity}; // which a sun does not use
+  frame.lights[1].position = {0, 1e200, -1e39};
+  for (Constituent& one : frame.medium.constituents)
+    one.scattering = {3e38F, 1, 1};
+  frame.medium.absorption = {3e38F, 1, 1};
+  REQUIRE(checkValues(frame).message.empty());
+  CHECK(optics::frameBlock(frame, {}).extinction.x == 3e38F);
+  CHECK(optics::lightBlock(frame, frame.lights[0], 64, 64).lightPosition == glm::vec3(0));
+  const blocks::LightBlock lamp = optics::lightBlock(frame, frame.lights[1], 64, 64);
+  CHECK(lamp.lightPosition.y == 3e38F);
+  CHECK(lamp.lightPosition.z == -3e38F);
+  CHECK(std::isfinite(lamp.shadowViews[0].margin.x));
 }
 
 TEST_CASE("a range is never so short or long that it comes to be none or infinite") {
