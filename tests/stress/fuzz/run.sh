@@ -2,7 +2,7 @@
 # run.sh [MINUTES [NAME...]]: fuzzes each target (all, 30 minutes) with what build-sanitize holds, two at a time. The
 # corpora grow in build-sanitize/fuzz/NAME/corpus, from those in the repository, and are merged at the end: what reaches
 # nothing new goes. Prints a table; exit status 1 if anything was found, which is in build-sanitize/fuzz/NAME/found.
-# With KEEP=BYTES the smallest of what is merged, so many bytes of it, becomes the repository's corpus of each target.
+# With KEEP=64, say, so many files of each go into the repository's corpora.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 build=$(cd "$here/../../.." && pwd)/build-sanitize
@@ -35,20 +35,17 @@ one() {
   done
   mkdir "$folder/merged"
   # shellcheck disable=SC2046
-  TMPDIR=$scratch nice -n 10 "$executable" -merge=1 $(cat "$here/options") "$folder/merged" "$here/corpus/$1" \
+  TMPDIR=$scratch nice -n 10 "$executable" -set_cover_merge=1 $(cat "$here/options") "$folder/merged" "$here/corpus/$1" \
     "$folder/corpus" >"$folder/merge.log" 2>&1
   rm -r "$folder/corpus" "$scratch"
   mv "$folder/merged" "$folder/corpus"
 }
 
-# keep NAME: into the repository, the smallest first.
+# keep NAME: into the repository KEEP files of at most 4 KiB, evenly from the smallest to the largest.
 keep() {
-  rm -f "$here/corpus/$1"/*
-  kept=0
-  find "$build/fuzz/$1/corpus" -type f -printf '%s %p\n' | sort -n | while read -r size file; do
-    kept=$((kept + size))
-    [ "$kept" -gt "$KEEP" ] || cp "$file" "$here/corpus/$1"
-  done
+  find "$build/fuzz/$1/corpus" -type f -size -9b -printf '%s %p\n' | sort -n | cut -d' ' -f2 >"$build/fuzz/$1/small"
+  awk -v most="$KEEP" '{ file[NR] = $0 } END { n = NR < most ? NR : most
+    for (i = 0; i < n; ++i) print file[1 + int(i * NR / n)] }' "$build/fuzz/$1/small" | xargs cp -t "$here/corpus/$1"
 }
 
 # row NAME: what became of it.
