@@ -202,7 +202,8 @@ Status checkValues(const Frame& frame) {
   if (Status s = checkMedium(frame.medium); !s) return s;
   if (Status s = checkSettings(frame.settings); !s) return s;
   if (Status s = checkReuse(frame); !s) return s;
-  return checkView(frame);
+  if (Status s = checkView(frame); !s) return s;
+  return checkRange(frame);
 }
 
 } // namespace tyndall

@@ -116,8 +116,8 @@ Status checkBoundary(const std::string& field, const Light& light) {
   if (!isFinite(boundary.point)) return invalid(field + "boundary.point", textOf(boundary.point), "must be finite");
   if (!isFinite(boundary.normal) || isZero(boundary.normal))
     return invalid(field + "boundary.normal", textOf(boundary.normal), "must be finite and not 0");
-  const glm::dvec3 n = glm::normalize(optics::toGlm(boundary.normal)),
-                   d = glm::normalize(optics::toGlm(light.direction));
+  const glm::dvec3 n = optics::directionOf(optics::toGlm(boundary.normal)),
+                   d = optics::directionOf(optics::toGlm(light.direction));
   if (std::abs(glm::dot(n, d)) < 1e-6) // the path to the plane would be endless
     return invalid(field + "boundary.normal", textOf(boundary.normal),
                    "the light must not travel parallel to the plane");

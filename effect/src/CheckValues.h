@@ -1,4 +1,4 @@
-// Rules that fields of several kinds have in common, and the part of checkValues() that is about lights.
+// Rules that fields of several kinds have in common, and the parts of checkValues() that are about lights and ranges.
 #pragma once
 
 #include "FieldText.h"
@@ -39,5 +39,8 @@ inline Status checkClipDepth(const std::string& field, ClipDepth clipDepth) {
 
 /// Numbers of a light and of its shadow views; `field` is "lights[i].".
 Status checkLight(const std::string& field, const Light& light);
+
+/// Of what passes all else: whether 32-bit floats hold what shaders are given of it.
+Status checkRange(const Frame& frame);
 
 } // namespace tyndall

@@ -29,10 +29,7 @@ struct Lamp {
 
   bool isSun() const { return light.kind == LightKind::Directional; }
   glm::dvec3 position() const { return toGlm(light.position); }
-  glm::dvec3 direction() const { // of any length, also one whose square is no number
-    const glm::dvec3 d = toGlm(light.direction);
-    return glm::normalize(d / std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}));
-  }
+  glm::dvec3 direction() const { return optics::directionOf(toGlm(light.direction)); }
 
   // As the effect reads it off.
   bool isReversed(const Projection& view) const {

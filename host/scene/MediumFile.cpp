@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <scene/Error.h>
 #include <scene/FileIo.h>
+#include <scene/Json.h>
 #include <utility>
 
 namespace host {
@@ -109,9 +109,9 @@ tyndall::Medium loadMedium(const std::filesystem::path& file) {
   const std::string name = printable(file.string());
   json value;
   try {
-    value = json::parse(text.begin(), text.end());
-  } catch (const json::exception& error) {
-    throw Error(name + ": is not JSON: " + printable(error.what()));
+    value = parseJson<json>(textOf(text));
+  } catch (const Error& error) {
+    throw Error(name + ": is not JSON: " + error.what());
   }
   return parseMedium(value, name + ": medium");
 }

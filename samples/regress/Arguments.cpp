@@ -27,7 +27,7 @@ void addCommon(CLI::App& app, Arguments& arguments) {
   app.add_option("--references", arguments.references, "the folder of the references")->type_name("DIR")->required();
   app.add_option("--scenes", arguments.scenes, "where relative names of scenes start (default: the list's folder)")
       ->type_name("DIR");
-  app.add_option("--only", arguments.only, "cases of this name, or whose whole name this regular expression matches")
+  app.add_option("--only", arguments.only, "cases of this name, in which * stands for any letters and ? for one")
       ->type_name("NAME");
 }
 

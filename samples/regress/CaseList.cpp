@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
-#include <regex>
 #include <render/CommandLine.h>
 #include <scene/Error.h>
 #include <scene/FileIo.h>
@@ -137,6 +136,27 @@ Case caseOf(const Json& json, const Defaults& defaults, const std::filesystem::p
   return result;
 }
 
+/// Whether * for any letters and ? for one make the pattern the name. What a * has taken is only ever given up for the
+/// next *, so that no pattern takes longer than its length times the name's.
+bool fits(const std::string& name, const std::string& pattern) {
+  std::size_t n = 0, p = 0, star = std::string::npos, taken = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      taken = n;
+    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
+      ++p;
+      ++n;
+    } else if (star != std::string::npos) {
+      p = star + 1;
+      n = ++taken;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', p) == std::string::npos;
+}
+
 } // namespace
 
 std::vector<Case> readCases(const std::filesystem::path& list, const std::filesystem::path& scenes) {
@@ -167,13 +187,8 @@ std::vector<Case> readCases(const std::filesystem::path& list, const std::filesy
 
 std::vector<Case> only(const std::vector<Case>& cases, const std::string& pattern) {
   std::vector<Case> chosen;
-  try {
-    const std::regex expression(pattern);
-    std::copy_if(cases.begin(), cases.end(), std::back_inserter(chosen),
-                 [&](const Case& one) { return one.name == pattern || std::regex_match(one.name, expression); });
-  } catch (const std::regex_error&) {
-    render::failUsage("--only", pattern, "must be a name or a regular expression");
-  }
+  std::copy_if(cases.begin(), cases.end(), std::back_inserter(chosen),
+               [&](const Case& one) { return fits(one.name, pattern); });
   if (!chosen.empty()) return chosen;
   std::string names;
   for (const Case& one : cases)

@@ -30,7 +30,8 @@ struct Case {
 /// that names file, case, field and rule.
 std::vector<Case> readCases(const std::filesystem::path& list, const std::filesystem::path& scenes);
 
-/// Those whose whole name matches the regular expression. Throws render::UsageError if there is none.
+/// Those whose name the pattern is, in which * stands for any letters and ? for one. Throws render::UsageError if there
+/// is none.
 std::vector<Case> only(const std::vector<Case>& cases, const std::string& pattern);
 
 std::vector<Case> shareOf(const std::vector<Case>& cases, const render::Share& share);

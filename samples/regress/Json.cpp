@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <scene/Error.h>
 #include <scene/FileIo.h>
+#include <scene/Json.h>
 
 namespace regress {
 
@@ -11,9 +12,9 @@ Json readJson(const std::filesystem::path& file) {
   constexpr std::uint64_t kMaxBytes = 16U << 20;
   const std::vector<std::uint8_t> bytes = host::readFile(file, kMaxBytes);
   try {
-    return Json::parse(bytes.begin(), bytes.end(), nullptr, true, true);
-  } catch (const Json::exception& error) {
-    throw host::Error(fmt::format("{}: is no JSON: {}", host::printable(file.string()), host::printable(error.what())));
+    return host::parseJson<Json>(host::textOf(bytes), true);
+  } catch (const host::Error& error) {
+    throw host::Error(fmt::format("{}: is no JSON: {}", host::printable(file.string()), error.what()));
   }
 }
 

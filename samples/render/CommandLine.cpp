@@ -11,6 +11,12 @@ namespace render {
 
 namespace {
 
+/// What was given may hold line breaks.
+std::string oneLine(std::string text) {
+  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  return text;
+}
+
 /// What CLI11 would let pass.
 std::string strictNumber(std::string& text, bool whole) {
   if (const auto number = parseWhole<std::int64_t>(text); whole && number) {
@@ -55,7 +61,7 @@ std::function<std::string(const std::string&)> oneOf(const std::string& option, 
 }
 
 void failUsage(const std::string& option, const std::string& value, const std::string& rule) {
-  throw UsageError(fmt::format("{} {}: {}", option, value, rule));
+  throw UsageError(oneLine(fmt::format("{} {}: {}", option, value, rule)));
 }
 
 int parseInt(const std::string& option, const std::string& value, int low, int high) {
@@ -136,7 +142,7 @@ void parseArguments(CLI::App& app, int argc, const char* const* argv) {
   } catch (const CLI::CallForVersion& version) {
     throw Answer{std::string(version.what()) + "\n"};
   } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
+    throw UsageError(oneLine(error.what()));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <scene/Error.h>
 #include <scene/FileIo.h>
+#include <scene/Json.h>
 
 namespace settings {
 
@@ -13,8 +14,8 @@ namespace {
 
 Json parseJson(const std::string& text, const std::string& where) {
   try {
-    return Json::parse(text);
-  } catch (const Json::exception& error) {
+    return host::parseJson<Json>(text);
+  } catch (const host::Error& error) {
     refuse(where, std::string("is not JSON: ") + error.what());
   }
 }

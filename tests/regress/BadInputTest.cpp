@@ -31,7 +31,7 @@ TEST_CASE("wrong usage of tyndall-regress is a line that names the option, exit 
   checkUsage(suite, "check nothing.json --references r --out out", "nothing.json: cannot be read: no such file");
   checkUsage(suite, check + "--only candle",
              "--only candle: no case of the list has this name; there are cage, projector");
-  checkUsage(suite, check + "--only '['", "--only [: must be a name or a regular expression");
+  checkUsage(suite, check + "--only 'cag'", "--only cag: no case");
   checkUsage(suite, check + "--only ''", "--only");
   checkUsage(suite, check + "--share 3/2", "--share 3/2: must be K/N");
   checkUsage(suite, check + "--jobs 0", "--jobs: 0 must be between 1 and 256");

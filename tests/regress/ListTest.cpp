@@ -94,6 +94,53 @@ TEST_CASE("shares hold each case once") {
   CHECK(names("4/4").empty());
   for (const char* share : {"0/2", "3/2", "1", "1/2/3", "a/b", "1/0", "-1/2", "/"})
     CHECK_THROWS_AS(render::parseShare("--share", share, 1000), render::UsageError);
-  CHECK(regress::only(cases, "a|c").size() == 2);
-  CHECK(regress::only(cases, ".*").size() == 3);
+}
+
+TEST_CASE("patterns choose cases by their names") {
+  const auto cases = read(listOf(R"({"name": "nave", "scene": "s"}, {"name": "nave-glass", "scene": "s"},
+                                    {"name": "a.b", "scene": "s"}, {"name": "acb", "scene": "s"})"));
+  const auto chosen = [&](const char* pattern) {
+    std::string names;
+    for (const regress::Case& one : regress::only(cases, pattern))
+      names += one.name + " ";
+    return names;
+  };
+  CHECK(chosen("nave") == "nave ");
+  CHECK(chosen("nave*") == "nave nave-glass ");
+  CHECK(chosen("*a?e*s") == "nave-glass ");
+  CHECK(chosen("a.b") == "a.b ");
+  CHECK(chosen("a?b") == "a.b acb ");
+  CHECK(chosen("**") == "nave nave-glass a.b acb ");
+  for (const char* none : {"", "av", "nave?", "?", "*x*", "nave-glas", "NAVE"})
+    CHECK_THROWS_AS(regress::only(cases, none), render::UsageError);
+}
+
+TEST_CASE("a value with line breaks is refused in one line") {
+  const auto cases = read(listOf(R"({"name": "a", "scene": "s"})"));
+  try {
+    regress::only(cases, "b\nc");
+    FAIL("is taken");
+  } catch (const render::UsageError& error) {
+    CHECK(std::string(error.what()) == "--only b?c: no case of the list has this name; there are a");
+  }
+  const char* const words[] = {"tyndall-render", "a.glb", "--size", "1\nx2"};
+  try {
+    render::parseOptions(4, words);
+    FAIL("is taken");
+  } catch (const render::UsageError& error) {
+    CHECK_THAT(error.what(), Catch::Contains("--size 1?x2: must be WIDTHxHEIGHT"));
+  }
+}
+
+TEST_CASE("no pattern takes longer than its length times the name's") {
+  const auto cases = read(listOf(R"({"name": ")" + std::string(100, 'a') + R"(", "scene": "s"})"));
+  std::string pattern;
+  for (int i = 0; i < 10000; ++i)
+    pattern += "*a";
+  CHECK_THROWS_AS(regress::only(cases, pattern + "b"), render::UsageError);
+}
+
+TEST_CASE("a list of endless brackets is refused, without a message that takes the stack") {
+  const std::string brackets = std::string(400000, '[') + std::string(400000, ']');
+  checkRefused(R"({"format": )" + brackets + "}", "nested deeper than 64 levels");
 }

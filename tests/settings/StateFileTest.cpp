@@ -139,6 +139,12 @@ TEST_CASE("a state that breaks a rule is refused with field, value and rule") {
   }
 }
 
+TEST_CASE("a state of endless brackets is refused, without a message that takes the stack") {
+  const std::string brackets = std::string(400000, '[') + std::string(400000, ']');
+  const std::string refusal = refusalOf(R"({"version": 1, "camera": {"scene": )" + brackets + "}}");
+  CHECK(refusal == "a.json: is not JSON: nested deeper than 64 levels");
+}
+
 TEST_CASE("every setting out of its range is refused by its name") {
   const auto check = [](const std::string& name, const auto& table) {
     for (const auto& row : table.rows) {

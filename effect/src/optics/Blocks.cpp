@@ -15,7 +15,8 @@ namespace {
 constexpr double kEndless = 1e30;      // a ray without end; float32 holds it, and exp(-sigma_t 1e30) is 0 or 1
 constexpr double kInvisibleDepth = 40; // optical depth behind which light counts for less than 5e-18
 constexpr double kLongestMarch = 1e15; // its square is a float32
-constexpr double kBrightest = 3e38;    // float32 holds it
+constexpr double kBrightest = 3e38;    // float32 holds it: colours, places and extinctions end there
+constexpr double kShortest = 1e-30;    // as float32 not 0, which would mean that there is no limit
 
 // Each constituent's share of the scattering, per channel; where a channel does not scatter, that of the one that does
 // most.
@@ -150,7 +151,7 @@ bool isMonochrome(const Medium& medium) {
 blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
   blocks::FrameBlock block{};
   setCameraRays(block, frame);
-  block.extinction = extinctionOf(frame.medium);
+  block.extinction = glm::min(extinctionOf(frame.medium), kBrightest);
   block.visibleEnd = static_cast<float>(visibleDistance(frame.medium));
   const std::vector<glm::dvec3> shares = sharesOf(frame.medium);
   for (std::size_t k = 0; k < shares.size(); ++k) {
@@ -193,7 +194,7 @@ void setCone(blocks::LightBlock& block, const Light& light) {
 // The light's way through the medium, as a linear function of the camera-relative point.
 glm::vec4 boundaryOf(const MediumBoundary& boundary, const glm::dvec3& direction, const glm::dvec3& origin) {
   if (!boundary.enabled) return glm::vec4(0);
-  const glm::dvec3 normal = glm::normalize(toGlm(boundary.normal));
+  const glm::dvec3 normal = directionOf(toGlm(boundary.normal));
   const glm::dvec3 gradient = normal / glm::dot(normal, direction);
   return glm::vec4(gradient, glm::dot(gradient, origin - toGlm(boundary.point)));
 }
@@ -220,7 +221,7 @@ glm::vec4 marginOf(const glm::dmat4& texelFromCamera, const glm::dvec2& size, co
       // Views with a centre elsewhere are as they are meant.
       if (missed > kRounding * slope * (reach + glm::length(toGlm(light.position)))) missed = 0;
     }
-    margin[i] = static_cast<float>(kRounding * (constant + slope * reach) + missed);
+    margin[i] = static_cast<float>(std::min(kRounding * (constant + slope * reach) + missed, kBrightest));
     margin[i + 2] = static_cast<float>(kRounding * slope);
   }
   return margin;
@@ -251,12 +252,13 @@ blocks::LightBlock lightBlock(const Frame& frame, const Light& light, int shadow
                               int curvesSize) {
   const glm::dvec3 origin = cameraOrigin(frame.camera);
   const glm::dvec3 direction =
-      light.kind == LightKind::Point ? glm::dvec3(0, -1, 0) : glm::normalize(toGlm(light.direction));
+      light.kind == LightKind::Point ? glm::dvec3(0, -1, 0) : directionOf(toGlm(light.direction));
   blocks::LightBlock block{};
   block.lightColour = glm::min(glm::dvec3(toGlm(light.colour)) * scatteringOf(frame.medium), kBrightest);
   block.lightDirection = direction;
-  block.lightPosition = fromEye(toGlm(light.position), origin);
-  block.lightRange = static_cast<float>(std::isfinite(light.range) ? light.range : 0);
+  if (light.kind != LightKind::Directional)
+    block.lightPosition = glm::clamp(fromEye(toGlm(light.position), origin), -kBrightest, kBrightest);
+  block.lightRange = static_cast<float>(light.range < kBrightest ? std::max(light.range, kShortest) : 0);
   setCone(block, light);
   block.boundary = boundaryOf(light.boundary, direction, origin);
   block.cascadeFade = static_cast<float>(light.cascadeFade);

@@ -12,7 +12,7 @@ namespace {
 glm::vec3 viewAxis(const Camera& camera, bool orthographic) {
   const glm::dmat4 view = toGlm(camera.viewFromWorld);
   const glm::dmat4 rows = glm::transpose(orthographic ? view : toGlm(camera.clipFromView) * view);
-  return glm::normalize(orthographic ? -glm::dvec3(rows[2]) : glm::dvec3(rows[3]));
+  return directionOf(orthographic ? -glm::dvec3(rows[2]) : glm::dvec3(rows[3]));
 }
 
 void setMeasure(blocks::FrameBlock& block, const SceneDepth& depth) {

@@ -72,7 +72,7 @@ struct ReachedVolume {
       : position(toGlm(light.position) - cameraOrigin(camera)), axis(0, -1, 0), angle(glm::pi<double>()),
         range(light.range) {
     if (light.kind != LightKind::Spot) return;
-    axis = glm::normalize(toGlm(light.direction));
+    axis = directionOf(toGlm(light.direction));
     angle = light.outerConeAngle;
   }
 

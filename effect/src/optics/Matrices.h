@@ -1,6 +1,8 @@
 // Matrices in double between the public header and GLM, and what a projection tells about itself.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <glm/glm.hpp>
 #include <tyndall/tyndall.h>
 
@@ -16,6 +18,11 @@ inline glm::dmat4 toGlm(const Mat4& m) {
 
 inline glm::dvec3 toGlm(const Vec3& v) { return {v[0], v[1], v[2]}; }
 inline glm::vec3 toGlm(const Rgb& v) { return {v[0], v[1], v[2]}; }
+
+/// The direction of a vector of any length but 0, also of one whose square is no double.
+inline glm::dvec3 directionOf(const glm::dvec3& v) {
+  return glm::normalize(v / std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}));
+}
 
 /// windowFromClip for depth: clip z in [-1, 1] or [0, 1] to [0, 1]; x and y stay.
 glm::dmat4 depthFromClip(ClipDepth clipDepth);

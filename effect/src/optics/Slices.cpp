@@ -50,7 +50,7 @@ struct Border {
 dvec3 epipoleOf(const Frame& frame, const Light& light) {
   const glm::dmat4 clipFromWorld = toGlm(frame.camera.clipFromView) * toGlm(frame.camera.viewFromWorld);
   const dvec4 clip = light.kind == LightKind::Directional
-                         ? clipFromWorld * dvec4(-glm::normalize(toGlm(light.direction)), 0)
+                         ? clipFromWorld * dvec4(-directionOf(toGlm(light.direction)), 0)
                          : clipFromWorld * dvec4(toGlm(light.position), 1);
   const dvec3 window(0.5 * (clip.x + clip.w) * frame.viewport.width, 0.5 * (clip.y + clip.w) * frame.viewport.height,
                      clip.w);

@@ -1,6 +1,7 @@
 #include "Container.h"
 
 #include <cstring>
+#include <scene/Json.h>
 
 namespace host::gltf {
 
@@ -54,54 +55,14 @@ Bytes splitGlb(Document& document) {
   return json;
 }
 
-/// Counts values and levels without keeping any. Syntax errors are left to the parser that follows.
-class Bounds : public nlohmann::json_sax<nlohmann::json> {
-public:
-  explicit Bounds(const Document& document) : document_(document) {}
-
-  bool null() override { return value(); }
-  bool boolean(bool) override { return value(); }
-  bool number_integer(number_integer_t) override { return value(); }
-  bool number_unsigned(number_unsigned_t) override { return value(); }
-  bool number_float(number_float_t, const string_t&) override { return value(); }
-  bool string(string_t&) override { return value(); }
-  bool binary(binary_t&) override { return value(); }
-  bool key(string_t&) override { return true; }
-  bool start_object(std::size_t) override { return enter(); }
-  bool start_array(std::size_t) override { return enter(); }
-  bool end_object() override { return leave(); }
-  bool end_array() override { return leave(); }
-  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override { return false; }
-
-private:
-  bool value() {
-    if (++values_ <= kMaxJsonValues) return true;
-    document_.refuse("JSON", "holds more than " + std::to_string(kMaxJsonValues) + " values");
-  }
-  bool enter() {
-    if (++depth_ <= kMaxJsonDepth) return value();
-    document_.refuse("JSON", "nested deeper than " + std::to_string(kMaxJsonDepth) + " levels");
-  }
-  bool leave() {
-    --depth_;
-    return true;
-  }
-
-  const Document& document_;
-  std::size_t values_ = 0;
-  int depth_ = 0;
-};
-
 nlohmann::json parseJson(const Document& document, Bytes text) {
   if (text.size > kMaxJsonBytes) document.refuse("JSON", "longer than " + std::to_string(kMaxJsonBytes >> 20) + " MiB");
   if (text.size >= 3 && std::memcmp(text.data, "\xEF\xBB\xBF", 3) == 0) {
     document.refuse("JSON", "must not begin with a byte order mark");
   }
-  Bounds bounds(document);
-  nlohmann::json::sax_parse(text.data, text.data + text.size, &bounds);
   try {
-    return nlohmann::json::parse(text.data, text.data + text.size);
-  } catch (const nlohmann::json::exception& error) {
+    return host::parseJson<nlohmann::json>({reinterpret_cast<const char*>(text.data), text.size});
+  } catch (const Error& error) {
     document.refuse("JSON", error.what());
   }
 }

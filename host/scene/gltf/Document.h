@@ -16,8 +16,6 @@ namespace host::gltf {
 /// Bounds on what a file may make the loader do.
 inline constexpr std::uint64_t kMaxFileBytes = 0x7fffffff;   ///< of the file and of each file it refers to
 inline constexpr std::uint64_t kMaxJsonBytes = 512ULL << 20; ///< of the JSON text
-inline constexpr std::size_t kMaxJsonValues = 4'000'000;     ///< numbers, strings, arrays and objects in it
-inline constexpr int kMaxJsonDepth = 64;                     ///< nested arrays and objects
 inline constexpr std::uint64_t kDecodedBytes = 512ULL
                                                << 20;     ///< of vertices, indices, key frames and textures: so many,
 inline constexpr std::uint64_t kDecodedBytesPerByte = 32; ///< and so many for each byte of the files

@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <memory>
+#include <png.h>
 #include <scene/Error.h>
 #include <stb_image.h>
 
@@ -11,17 +12,43 @@ namespace host::gltf {
 
 namespace {
 
-/// The most pixels that a byte of a PNG can stand for (1032 : 1 by deflate, 8 to a byte); JPEGs hold far less. An image
-/// that promises more is broken, and would only cost time and memory.
-constexpr std::uint64_t kMaxPixelsPerByte = 8 * 1032;
+/// The most pixels that a byte can stand for: in a PNG 1032 : 1 by deflate, 8 to a byte; in a JPEG 2 bits for 8 x 8. An
+/// image that promises more is broken, and would only cost time and memory.
+constexpr std::uint64_t kMaxPngPixelsPerByte = 8 * 1032, kMaxJpegPixelsPerByte = 256;
 
-bool isPngOrJpeg(const std::vector<std::uint8_t>& bytes) {
-  constexpr std::uint8_t kPng[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
-  constexpr std::uint8_t kJpeg[] = {0xFF, 0xD8, 0xFF};
-  const auto beginsWith = [&](const auto& magic) {
-    return bytes.size() >= sizeof magic && std::memcmp(bytes.data(), magic, sizeof magic) == 0;
-  };
-  return beginsWith(kPng) || beginsWith(kJpeg);
+/// Of a JPEG. Each goes over all of the picture: progressive ones have ten, and a file of nothing else thousands.
+constexpr int kMaxScans = 100;
+
+constexpr std::uint8_t kPng[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+constexpr std::uint8_t kJpeg[] = {0xFF, 0xD8, 0xFF};
+
+template <std::size_t size>
+bool beginsWith(const std::vector<std::uint8_t>& bytes, const std::uint8_t (&magic)[size]) {
+  return bytes.size() >= size && std::memcmp(bytes.data(), magic, size) == 0;
+}
+
+/// A PNG without the chunks that only say how its colours are meant: glTF has them be sRGB, whatever these say.
+std::vector<std::uint8_t> essentialChunks(const std::vector<std::uint8_t>& png) {
+  constexpr std::size_t kAround = 12; // of a chunk's data: length, name, checksum
+  std::vector<std::uint8_t> kept(png.begin(), png.begin() + sizeof kPng);
+  for (std::size_t at = sizeof kPng; at + kAround <= png.size();) {
+    const std::uint8_t* chunk = &png[at];
+    const std::size_t length =
+        std::size_t{chunk[0]} << 24 | std::size_t{chunk[1]} << 16 | std::size_t{chunk[2]} << 8 | std::size_t{chunk[3]};
+    const std::string_view name(reinterpret_cast<const char*>(chunk) + 4, 4);
+    if (length > png.size() - at - kAround) throw Error("the image is cut off in its chunk " + printable(name));
+    const bool isCritical = name[0] >= 'A' && name[0] <= 'Z';
+    if (isCritical || name == "tRNS") kept.insert(kept.end(), chunk, chunk + kAround + length);
+    at += kAround + length;
+  }
+  return kept;
+}
+
+int scansOf(const std::vector<std::uint8_t>& jpeg) {
+  int scans = 0;
+  for (std::size_t i = 1; i < jpeg.size(); ++i)
+    scans += jpeg[i - 1] == 0xFF && jpeg[i] == 0xDA ? 1 : 0;
+  return scans;
 }
 
 Wrap wrapOf(int mode) {
@@ -76,22 +103,55 @@ std::vector<std::uint8_t> TextureLoader::encodedImage(std::size_t index) {
 }
 
 void TextureLoader::decode(const std::vector<std::uint8_t>& encoded, Texture& texture) {
-  if (!isPngOrJpeg(encoded)) throw Error("the image is neither PNG nor JPEG");
+  if (beginsWith(encoded, kPng))
+    decodePng(encoded, texture);
+  else if (beginsWith(encoded, kJpeg))
+    decodeJpeg(encoded, texture);
+  else
+    throw Error("the image is neither PNG nor JPEG");
+}
+
+/// Before anything is decoded.
+void TextureLoader::makeRoom(Texture& texture, std::uint64_t most) {
+  if (texture.width < 1 || texture.height < 1 || texture.width > kMaxTextureSize || texture.height > kMaxTextureSize) {
+    throw Error("the image's sides must be 1 to " + std::to_string(kMaxTextureSize) + " pixels");
+  }
+  const std::uint64_t pixels = static_cast<std::uint64_t>(texture.width) * static_cast<std::uint64_t>(texture.height);
+  if (pixels > most) throw Error("the image is too short for its size in pixels");
+  document_.spend(4 * pixels, "textures");
+  texture.rgba.resize(4 * pixels);
+}
+
+/// By libpng, row by row: what the data would unpack to beyond the picture is not unpacked.
+void TextureLoader::decodePng(const std::vector<std::uint8_t>& encoded, Texture& texture) {
+  const std::vector<std::uint8_t> chunks = essentialChunks(encoded);
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  const std::unique_ptr<png_image, void (*)(png_image*)> freed(&image, png_image_free);
+  const auto require = [&image](int success, const char* what) {
+    if (success == 0) throw Error(std::string("the image cannot be ") + what + ": " + printable(image.message));
+  };
+  require(png_image_begin_read_from_memory(&image, chunks.data(), chunks.size()), "read");
+  texture.width = static_cast<int>(image.width);
+  texture.height = static_cast<int>(image.height);
+  makeRoom(texture, kMaxPngPixelsPerByte * encoded.size());
+  image.format = PNG_FORMAT_RGBA;
+  image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
+  require(png_image_finish_read(&image, nullptr, texture.rgba.data(), 0, nullptr), "decoded");
+}
+
+void TextureLoader::decodeJpeg(const std::vector<std::uint8_t>& encoded, Texture& texture) {
   const int size = static_cast<int>(encoded.size());
   int channels = 0;
   if (stbi_info_from_memory(encoded.data(), size, &texture.width, &texture.height, &channels) == 0) {
     throw Error(std::string("the image cannot be read: ") + stbi_failure_reason());
   }
-  if (texture.width < 1 || texture.height < 1 || texture.width > kMaxTextureSize || texture.height > kMaxTextureSize) {
-    throw Error("the image's sides must be 1 to " + std::to_string(kMaxTextureSize) + " pixels");
-  }
-  const std::uint64_t pixels = static_cast<std::uint64_t>(texture.width) * static_cast<std::uint64_t>(texture.height);
-  if (pixels > kMaxPixelsPerByte * encoded.size()) throw Error("the image is too short for its size in pixels");
-  document_.spend(4 * pixels, "textures");
+  if (scansOf(encoded) > kMaxScans) throw Error("the image has more than " + std::to_string(kMaxScans) + " scans");
+  makeRoom(texture, kMaxJpegPixelsPerByte * encoded.size());
   const std::unique_ptr<stbi_uc, void (*)(void*)> rgba(
       stbi_load_from_memory(encoded.data(), size, &texture.width, &texture.height, &channels, 4), stbi_image_free);
   if (rgba == nullptr) throw Error(std::string("the image cannot be decoded: ") + stbi_failure_reason());
-  texture.rgba.assign(rgba.get(), rgba.get() + 4 * pixels);
+  std::memcpy(texture.rgba.data(), rgba.get(), texture.rgba.size());
 }
 
 } // namespace host::gltf

@@ -19,6 +19,9 @@ public:
 private:
   std::vector<std::uint8_t> encodedImage(std::size_t image);
   void decode(const std::vector<std::uint8_t>& encoded, Texture& texture);
+  void decodePng(const std::vector<std::uint8_t>& encoded, Texture& texture);
+  void decodeJpeg(const std::vector<std::uint8_t>& encoded, Texture& texture);
+  void makeRoom(Texture& texture, std::uint64_t most);
 
   Document& document_;
   std::vector<Texture>& textures_;

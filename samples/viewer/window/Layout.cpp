@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <scene/Error.h>
 #include <scene/FileIo.h>
+#include <scene/Json.h>
 
 namespace viewer {
 
@@ -30,7 +30,7 @@ Layout loadLayout() {
   if (!file || !std::filesystem::exists(*file, error)) return layout;
   try {
     const std::vector<std::uint8_t> text = host::readFile(*file, 1 << 16);
-    const nlohmann::json json = nlohmann::json::parse(text.begin(), text.end());
+    const nlohmann::json json = host::parseJson<nlohmann::json>(host::textOf(text));
     layout.width = std::clamp(json.value("width", layout.width), kLeast, kMost);
     layout.height = std::clamp(json.value("height", layout.height), kLeast, kMost);
     layout.showsPanel = json.value("panel", layout.showsPanel);

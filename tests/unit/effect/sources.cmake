@@ -4,6 +4,7 @@ set(TYNDALL_UNIT_EFFECT_SOURCES ${CMAKE_CURRENT_LIST_DIR}/BandPacesTest.cpp
                                ${CMAKE_CURRENT_LIST_DIR}/InputChecksTest.cpp
                                ${CMAKE_CURRENT_LIST_DIR}/MatrixTest.cpp
                                ${CMAKE_CURRENT_LIST_DIR}/ProfilesTest.cpp
+                               ${CMAKE_CURRENT_LIST_DIR}/RangeTest.cpp
                                ${CMAKE_CURRENT_LIST_DIR}/RedrawPlanTest.cpp
                                ${CMAKE_CURRENT_LIST_DIR}/ResourcesTest.cpp
                                ${CMAKE_CURRENT_LIST_DIR}/TuningTest.cpp)

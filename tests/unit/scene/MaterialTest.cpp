@@ -88,23 +88,6 @@ TEST_CASE("Images beside the file are found, with escapes in their names", "[sce
   CHECK(scene.textures[0].rgba == std::vector<std::uint8_t>{255, 0, 0, 255, 0, 0, 255, 255});
 }
 
-TEST_CASE("An image that promises more pixels than it holds is left out", "[scene][gltf]") {
-  const TemporaryFolder folder;
-  host::writePng(folder / "image.png", 1, 1, {1, 2, 3});
-  std::vector<std::uint8_t> png = readBytes(folder / "image.png");
-  for (const auto& [side, reason] : {std::pair<int, const char*>{16384, "too short"}, {16385, "1 to 16384"}}) {
-    for (const std::size_t offset : {16U, 20U}) { // width and height in IHDR, big endian
-      png[offset + 2] = static_cast<std::uint8_t>(side >> 8);
-      png[offset + 3] = static_cast<std::uint8_t>(side & 0xff);
-    }
-    GltfFile file = everything();
-    file.json["images"][0] = {{"bufferView", file.view(png)}};
-    const host::Scene scene = file.load();
-    CHECK(scene.textures.empty());
-    CHECK(hasNote(scene, reason));
-  }
-}
-
 TEST_CASE("Broken looks are notes, not errors", "[scene][gltf]") {
   GltfFile file = everything();
   file.json["materials"][0]["alphaMode"] = "GLITTER";

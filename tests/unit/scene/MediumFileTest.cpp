@@ -118,6 +118,8 @@ TEST_CASE("A medium file is read, or refused by name", "[scene][medium]") {
   CHECK_THAT(fileRefusal(folder / "m.json"), Contains("m.json: medium.absorption[1]"));
   write("");
   CHECK_THAT(fileRefusal(folder / "m.json"), Contains("m.json"));
+  write("{\"farDistance\": " + std::string(400000, '[') + std::string(400000, ']') + "}"); // a message shows values
+  CHECK_THAT(fileRefusal(folder / "m.json"), Contains("m.json: is not JSON: nested deeper than 64 levels"));
   CHECK_THAT(fileRefusal(folder / "none.json"), Contains("none.json: cannot be read: no such file"));
   CHECK_THAT(fileRefusal(folder.path()), Contains("not a regular file"));
 }

@@ -8,6 +8,7 @@ set(TYNDALL_UNIT_SCENE_SOURCES
   ${CMAKE_CURRENT_LIST_DIR}/GeometryTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GltfFile.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GltfFile.h
+  ${CMAKE_CURRENT_LIST_DIR}/HostileImageTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ImageFileTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/InvalidCorpusTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MaterialTest.cpp
@@ -16,5 +17,7 @@ set(TYNDALL_UNIT_SCENE_SOURCES
   ${CMAKE_CURRENT_LIST_DIR}/OrreryTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ProgramFilesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SampleFilesTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/SceneRules.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/SceneRules.h
   ${CMAKE_CURRENT_LIST_DIR}/SmokeTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/WrittenScenesTest.cpp)
