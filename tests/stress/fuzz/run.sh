@@ -52,7 +52,7 @@ keep() {
 row() {
   folder=$build/fuzz/$1
   runs=$(awk '/number_of_executed_units/ { n += $2 } END { print n + 0 }' "$folder/log")
-  cover=$(grep -oE 'cov: [0-9]+ ft: [0-9]+' "$folder/merge.log" | tail -n 1)
+  cover=$(sed -nE 's/.* with ([0-9]+) new features added; ([0-9]+) new coverage edges.*/\2, \1/p' "$folder/merge.log")
   echo "| $1 | $runs | $cover | $(find "$folder/corpus" -type f | wc -l) | $(find "$folder/found" -type f | wc -l) |"
 }
 
