@@ -348,8 +348,8 @@ enum class Changes {
 /// Changes::Detect as long as a sample's end lies within the depths of the nine pixels around it, by Changes::Objects
 /// where no object is. Until the eye is drawn in full again, such a frame differs from the frame in full as far as
 /// another jitter's depth does: by less than 2 % of the mean in all pictures of 96 x 64 pixels that were tried, and
-/// from Exact by no more than a fifth farther; in tiny ones, of 9 to 47 pixels, by less than 10 %, or than the frames
-/// in full of two jitters do.
+/// from Exact by no more than a fifth farther; in pictures of a few pixels
+/// or slices it may be more.
 struct Reuse {
   Changes changes = Changes::Unknown;
   /// Which of the engine's eyes this is: each has a picture of its own, the last 4 that were drawn are kept.
