@@ -124,8 +124,8 @@ struct Camera {
   ClipDepth clipDepth = ClipDepth::NegativeOneToOne;
   /// By how many pixels clipFromView moves the image, for temporal antialiasing: to the right and up; |x|, |y| <= 16.
   /// What is sampled along slices is sampled as without it, so that it neither flickers nor ends a reuse; one of up to
-  /// half a pixel after one of more does. With Frame::reuse an eye whose jitter comes to rest at 0 keeps the slices of a
-  /// jittered one, which go half a pixel beyond the image, until its camera moves.
+  /// half a pixel after one of more does. With Frame::reuse an eye whose jitter comes to rest at 0 keeps the slices of
+  /// a jittered one, which go half a pixel beyond the image, until its camera moves.
   std::array<double, 2> jitter = {0, 0};
 };
 
@@ -347,9 +347,9 @@ enum class Changes {
 /// marched at once is redrawn whole. Where only Camera::jitter changes, all pixels are drawn, but slices are kept: by
 /// Changes::Detect as long as a sample's end lies within the depths of the nine pixels around it, by Changes::Objects
 /// where no object is. Until the eye is drawn in full again, such a frame differs from the frame in full as far as
-/// another jitter's depth does: by less than 2 % of the mean in all pictures of 96 x 64 pixels that were tried, and from
-/// Exact by no more than a fifth farther; in tiny ones, of 9 to 47 pixels, by less than 5 %, or than the frames in full
-/// of two jitters do.
+/// another jitter's depth does: by less than 2 % of the mean in all pictures of 96 x 64 pixels that were tried, and
+/// from Exact by no more than a fifth farther; in pictures of a few pixels
+/// or slices it may be more.
 struct Reuse {
   Changes changes = Changes::Unknown;
   /// Which of the engine's eyes this is: each has a picture of its own, the last 4 that were drawn are kept.

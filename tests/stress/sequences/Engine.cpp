@@ -219,7 +219,7 @@ void Engine::fillMeshes() {
     gl().BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(data.size() * sizeof(float)), data.data(), GL_STATIC_DRAW);
     gl().BindBuffer(GL_ARRAY_BUFFER, 0);
     mesh.shape = mover.shape;
-    mesh.version = ++versions_;
+    mesh.version = Hash().add(mover.shape).value() | 1U;
   }
 }
 

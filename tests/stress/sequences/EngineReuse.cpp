@@ -2,6 +2,7 @@
 #include "Engine.h"
 #include "Hash.h"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace tyndall;
@@ -122,6 +123,8 @@ void Engine::tellFacts() {
                   frame_.depth.version};
   facts_.jitter = state_.jitter;
   facts_.namesObjects = !frame_.objects.empty();
+  facts_.namesMeshes = std::any_of(frame_.objects.begin(), frame_.objects.end(),
+                                   [](const MovingObject& object) { return object.mesh.buffer != 0; });
   facts_.drawsInParts = s.technique == Technique::Epipolar && !std::isfinite(s.spreadThreshold);
   Rgb extinction = state_.medium.absorption;
   for (const Constituent& part : state_.medium.constituents)

@@ -123,6 +123,10 @@ void ReuseModel::drawn(const FrameFacts& frame, double share) {
   eye.mixed = eye.sure ? !full && (eye.mixed || moves) : true;
   eye.sure = true;
   eye.last = frame;
+  if (!frame.namesMeshes) return;
+  eye.last->depth.version = 0;
+  for (Content& map : eye.last->maps)
+    map.version = 0;
 }
 
 void ReuseModel::failed(const FrameFacts& frame, StatusCode code) {

@@ -28,6 +28,7 @@ struct FrameFacts {
   std::vector<Content> maps;
   std::array<double, 2> jitter = {0, 0};
   bool namesObjects = false;
+  bool namesMeshes = false; ///< whose boxes may not be known yet: then all is compared, and no version remembered
   bool drawsInParts = true; ///< Technique::Epipolar without a spread threshold
   bool isPicture = true;    ///< no debug view but Redrawn, and a medium that is seen
   int refreshFrames = 0;

@@ -178,8 +178,8 @@ void changeMovers(ScriptState& s, Random& r) {
 void changeMesh(ScriptState& s, Random& r) {
   MoverState& mover = s.movers[static_cast<std::size_t>(r.below(3))];
   if (mover.mesh && r.chance(0.7))
-    mover.shape = r.uniform(0.4, 2);
-  else if (!mover.present || !mover.mesh) // one that is seen stays what it is
+    mover.shape = r.pick<double>({0.4, 1, 1.8}); // one that was there before has its version again
+  else if (!mover.present || !mover.mesh)        // one that is seen stays what it is
     mover.mesh = true;
   mover.versioned = r.chance(0.8);
 }
@@ -233,7 +233,9 @@ ScriptState simplest() {
 Script::Script(const Recipe& recipe) : recipe_(recipe), state_(simplest()) {
   for (std::size_t i = 0; i < rates_.size(); ++i) {
     Random random = recipe_.random(static_cast<Ingredient>(i), -1);
-    rates_[i] = random.pick<double>({0, 0, 0, 0.05, 0.25});
+    const auto ingredient = static_cast<Ingredient>(i);
+    const bool often = ingredient == Ingredient::Movers || ingredient == Ingredient::Meshes;
+    rates_[i] = often ? random.pick<double>({0, 0.1, 0.5}) : random.pick<double>({0, 0, 0, 0.05, 0.25});
   }
 }
 

@@ -17,8 +17,8 @@ namespace {
 
 using Trouble = std::optional<std::string>;
 
-constexpr double kRounding = 1e-5;    // of what reuse promises: as tests/gl/effect/ReuseRig.h
-constexpr double kOtherJitter = 0.05; // root mean square that another jitter's depth may come to: Reuse
+constexpr double kRounding = 1e-5;   // of what reuse promises: as tests/gl/effect/ReuseRig.h
+constexpr double kOtherJitter = 0.1; // root mean square that another jitter's depth may come to in tiny pictures: Reuse
 
 // A frame that breaks a rule.
 Frame spoilt(const Frame& frame, int how) {
