@@ -348,8 +348,7 @@ enum class Changes {
 /// Changes::Detect as long as a sample's end lies within the depths of the nine pixels around it, by Changes::Objects
 /// where no object is. Until the eye is drawn in full again, such a frame differs from the frame in full as far as
 /// another jitter's depth does: by less than 2 % of the mean in all pictures of 96 x 64 pixels that were tried, and
-/// from Exact by no more than a fifth farther; in pictures of a few pixels
-/// or slices it may be more.
+/// from Exact by no more than a fifth farther; in pictures of a few pixels or slices it may be more.
 struct Reuse {
   Changes changes = Changes::Unknown;
   /// Which of the engine's eyes this is: each has a picture of its own, the last 4 that were drawn are kept.
@@ -396,7 +395,8 @@ struct Output {
   int layer = -1;                  ///< of both, if they are GL_TEXTURE_2D_ARRAYs; -1: they are GL_TEXTURE_2Ds
 };
 
-/// All that one render() call reads. Every texture keeps its parameters; the effect binds samplers of its own.
+/// All that one render() call reads. Every texture keeps its parameters; the effect binds samplers of its own. Relative
+/// to the eye, matrices, planes and depth scales are finite as 32-bit floats; lights may be as far as doubles are.
 struct Frame {
   /// Pixels of colour and outputs that the camera's image fills, 1 to 16384 wide and high; no other is read or written.
   Rectangle viewport;
