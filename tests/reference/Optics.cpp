@@ -249,7 +249,8 @@ Rgb Airlight::adaptive(const Panel& panel, const Rgb& total, int depth) const {
   kronrod *= 0.5 * panel.width;
   gauss *= 0.5 * panel.width;
   const Rgb error = glm::abs(kronrod - gauss);
-  const Rgb allowed = 1e-10 * glm::max(kronrod, total);
+  constexpr double kNothing = 1e-290; // under this a relative error is that of numbers that lose their bits
+  const Rgb allowed = glm::max(1e-10 * glm::max(kronrod, total), Rgb(kNothing));
   if (depth == 0 || glm::all(glm::lessThanEqual(error, allowed))) return kronrod;
   const double half = 0.5 * panel.width;
   return adaptive({panel.side, panel.e0, half}, total, depth - 1) +
