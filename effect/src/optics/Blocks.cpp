@@ -231,8 +231,9 @@ glm::vec4 marginOf(const glm::dmat4& texelFromCamera, const glm::dvec2& size, co
 // its cone holds: in what direction rounding moved it must not.
 glm::dvec3 fromEye(const glm::dvec3& lamp, const glm::dvec3& eye) {
   constexpr double kRounding = 1e-14;
+  const auto most = [](const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
   const glm::dvec3 apart = lamp - eye;
-  return glm::length(apart) > kRounding * (glm::length(lamp) + glm::length(eye)) ? apart : glm::dvec3(0);
+  return most(apart) > kRounding * (most(lamp) + most(eye)) ? apart : glm::dvec3(0);
 }
 
 // No camera ray begins farther from the origin.
