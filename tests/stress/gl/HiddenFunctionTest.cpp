@@ -19,7 +19,7 @@ void* loadOthers(const char* name) {
 
 } // namespace
 
-TEST_CASE("a loader that lacks any function: create names it, or the pictures are the same") {
+TEST_CASE("a loader that lacks any function: create names it, or the pictures are the same", "[once]") {
   tests::FaultyContext context;
   real = context.loader();
   hidden.clear();

@@ -31,7 +31,7 @@ int sumOf(const std::map<std::string, int>& counts) {
 
 } // namespace
 
-TEST_CASE("a thousand effects that draw leave no GL object behind") {
+TEST_CASE("a thousand effects that draw leave no GL object behind", "[once]") {
   tests::FaultyContext context;
   tests::Stage stage(tests::frameCase("detect, a part"));
   stage.draw(*tests::newEffect({context.loader()})); // what GL keeps of programs
@@ -47,7 +47,7 @@ TEST_CASE("a thousand effects that draw leave no GL object behind") {
   CHECK(tests::liveGlObjects() == before);
 }
 
-TEST_CASE("a thousand effects that are made and given up take no more memory than the first hundred") {
+TEST_CASE("a thousand effects that are made and given up take no more memory than the first hundred", "[once]") {
   const auto make = [](int times) {
     for (int i = 0; i < times; ++i)
       tests::newEffect();
@@ -60,7 +60,7 @@ TEST_CASE("a thousand effects that are made and given up take no more memory tha
   CHECK(after <= before + (std::uint64_t{1} << 20));
 }
 
-TEST_CASE("a thousand sizes through one effect: bytes stay bounded, and the picture is that of a fresh one") {
+TEST_CASE("a thousand sizes through one effect: bytes stay bounded, and the picture is that of a fresh one", "[once]") {
   constexpr int kKept = 8; // last frames whose textures are kept
   tests::FaultyContext context;
   for (const char* name : {"epipolar", "detect, nothing"}) {
