@@ -71,7 +71,7 @@ TEST_CASE("draws in bands give the picture of whole draws, bit for bit") {
     if (tests::canDraw(item)) CHECK(checkSame(context, item, 32, 24, kSquares) > 10);
 }
 
-TEST_CASE("draws in bands of rows, of pixels, and of odd and tiny images give the picture of whole draws") {
+TEST_CASE("draws in bands of rows, of pixels, and of odd and tiny images give the picture of whole draws", "[sweep]") {
   constexpr double kPixels = 1e-300; // each by itself
   FaultyContext context;
   for (const char* name :

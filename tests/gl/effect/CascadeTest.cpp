@@ -20,7 +20,7 @@ void makeRig(tests::ShaftRig& rig, int cascades) {
 
 } // namespace
 
-TEST_CASE("a fade between cascades changes nothing where they agree") {
+TEST_CASE("a fade between cascades changes nothing where they agree", "[sweep]") {
   for (const Technique technique : {Technique::Exact, Technique::Tree, Technique::Epipolar}) {
     CAPTURE(static_cast<int>(technique));
     tests::ShaftRig rig(64, 48);
@@ -32,7 +32,7 @@ TEST_CASE("a fade between cascades changes nothing where they agree") {
   }
 }
 
-TEST_CASE("cascades that fade look alike by every technique") {
+TEST_CASE("cascades that fade look alike by every technique", "[sweep]") {
   tests::ShaftRig rig(96, 64);
   Light light = tests::shaftLight(LightKind::Directional);
   light.shadow.views = tests::shadowViews(light, 4);

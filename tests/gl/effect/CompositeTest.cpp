@@ -252,7 +252,7 @@ TEST_CASE("statistics name the passes and time them") {
   }
 }
 
-TEST_CASE("equal coefficients in all channels draw the picture that unequal ones draw") {
+TEST_CASE("equal coefficients in all channels draw the picture that unequal ones draw", "[sweep]") {
   for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot})
     for (const bool glass : {false, true}) {
       CAPTURE(static_cast<int>(kind), glass);

@@ -42,7 +42,7 @@ void checkAgainstReference(tests::SceneRig& rig, const reference::ImageAnswer& a
 
 } // namespace
 
-TEST_CASE("every depth convention and format gives the same picture") {
+TEST_CASE("every depth convention and format gives the same picture", "[sweep]") {
   for (const bool endlessSky : {false, true}) {
     std::map<bool, reference::ImageAnswer> expected; // by orthographic
     for (const tests::DepthConvention& convention : allConventions())
@@ -140,7 +140,7 @@ TEST_CASE("a shadow map's and the depth's compare mode and filters change nothin
   }
 }
 
-TEST_CASE("multisampled depth gives the mean over the samples") {
+TEST_CASE("multisampled depth gives the mean over the samples", "[sweep]") {
   tests::SceneRig rig = tests::threeLights();
   rig.frame.medium.farDistance = 60;
   for (const GLenum format : {GL_DEPTH_COMPONENT32F, GL_R32F})

@@ -67,7 +67,7 @@ struct Poisoned {
 } // namespace
 
 // Every first pixel of a quad has no ray: its depth is not a number.
-TEST_CASE("pixels that leave a loop before their neighbours leave those alone", "[softpipe]") {
+TEST_CASE("pixels that leave a loop before their neighbours leave those alone", "[sweep][softpipe]") {
   const tests::PixelSet others = [](int x, int y) { return x % 2 != 0 || y % 2 != 0; };
   for (const Case& item : kCases) {
     tests::ShaftRig rig(48, 32);

@@ -91,7 +91,7 @@ std::vector<float> someDepth(const tests::SceneRig& rig, int width, int height) 
 
 } // namespace
 
-TEST_CASE("scene depth in a part of a larger texture gives the picture of a texture of just that size") {
+TEST_CASE("scene depth in a part of a larger texture gives the picture of a texture of just that size", "[sweep]") {
   tests::SceneRig rig = litRig();
   const std::vector<std::vector<float>> expected = pictures(rig);
   const Rectangle part{5, 3, kWidth, kHeight};

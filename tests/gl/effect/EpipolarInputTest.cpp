@@ -118,7 +118,7 @@ TEST_CASE("a knob of the epipolar technique that breaks its rule is refused, fie
   rig.checkAccepted(rig.frame);
 }
 
-TEST_CASE("a knob of the epipolar technique at the ends of its range gives a finite picture") {
+TEST_CASE("a knob of the epipolar technique at the ends of its range gives a finite picture", "[sweep]") {
   tests::ShaftRig rig(48, 32);
   rig.addLight(tests::shaftLight(LightKind::Directional), 32);
   for (const Knob& knob : kKnobs)
@@ -145,7 +145,7 @@ TEST_CASE("a pixel is marched by itself where a knob lets no sample serve it") {
   }
 }
 
-TEST_CASE("shadow maps of one texel and of one row or column") {
+TEST_CASE("shadow maps of one texel and of one row or column", "[sweep]") {
   tests::testContext();
   GLint largest = 0;
   host::gl().GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
@@ -167,7 +167,7 @@ TEST_CASE("shadow maps of one texel and of one row or column") {
       }
 }
 
-TEST_CASE("pictures of one pixel, one column and one row") {
+TEST_CASE("pictures of one pixel, one column and one row", "[sweep]") {
   for (const LightKind kind : kKinds)
     for (const glm::ivec2& size : {glm::ivec2(1, 1), glm::ivec2(1, 2000), glm::ivec2(8192, 1)}) {
       CAPTURE(static_cast<int>(kind), size.x, size.y);

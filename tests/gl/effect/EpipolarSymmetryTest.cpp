@@ -112,7 +112,7 @@ TEST_CASE("epipolar gives the same picture with a reversed shadow map") {
   }
 }
 
-TEST_CASE("epipolar comes close to exact through an orthographic camera, standard or reversed") {
+TEST_CASE("epipolar comes close to exact through an orthographic camera, standard or reversed", "[sweep]") {
   for (const bool reversed : {false, true})
     for (const LightKind kind : kKinds)
       for (const Vec3& direction : kDirections) {

@@ -78,7 +78,7 @@ const std::vector<Vec3> kDirections = {{0.4, -1, -0.3}, {0.1, -0.3, -1}, {-0.2, 
 
 } // namespace
 
-TEST_CASE("tree and epipolar equal exact where every texel is lit") {
+TEST_CASE("tree and epipolar equal exact where every texel is lit", "[sweep]") {
   for (const LightKind kind : {LightKind::Directional, LightKind::Spot})
     for (const Vec3& direction : kDirections)
       for (const Technique technique : {Technique::Tree, Technique::Epipolar}) {
@@ -138,7 +138,7 @@ TEST_CASE("the first frame of an effect equals its second") {
   }
 }
 
-TEST_CASE("transmittance is the same by every technique, with several views and lights") {
+TEST_CASE("transmittance is the same by every technique, with several views and lights", "[sweep]") {
   Rig rig(LightKind::Directional, Map::Slats, kDirections[0]);
   Frame& frame = rig.frame.frame;
   frame.lights[0].shadow.views.push_back(frame.lights[0].shadow.views[0]);

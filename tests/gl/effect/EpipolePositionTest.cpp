@@ -92,6 +92,12 @@ void checkAll(LightKind kind) {
 
 } // namespace
 
-TEST_CASE("epipolar comes close to exact wherever a sun's epipole lies") { checkAll(LightKind::Directional); }
-TEST_CASE("epipolar comes close to exact wherever a point light's epipole lies") { checkAll(LightKind::Point); }
-TEST_CASE("epipolar comes close to exact wherever a spot light's epipole lies") { checkAll(LightKind::Spot); }
+TEST_CASE("epipolar comes close to exact wherever a sun's epipole lies", "[sweep]") {
+  checkAll(LightKind::Directional);
+}
+TEST_CASE("epipolar comes close to exact wherever a point light's epipole lies", "[sweep]") {
+  checkAll(LightKind::Point);
+}
+TEST_CASE("epipolar comes close to exact wherever a spot light's epipole lies", "[sweep]") {
+  checkAll(LightKind::Spot);
+}

@@ -138,7 +138,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("whole pixels of jitter move the picture by whole pixels") {
+TEST_CASE("whole pixels of jitter move the picture by whole pixels", "[sweep]") {
   for (const LightKind kind : {LightKind::Directional, LightKind::Spot, LightKind::Point}) {
     CAPTURE(static_cast<int>(kind));
     tests::ShaftRig rig = lit(kind, ShadowFilter::Nearest, 256, 192);
@@ -158,7 +158,8 @@ TEST_CASE("whole pixels of jitter move the picture by whole pixels") {
   }
 }
 
-TEST_CASE("over Halton's points the mean is the supersampled picture, and no pixel flickers more than it must") {
+TEST_CASE("over Halton's points the mean is the supersampled picture, and no pixel flickers more than it must",
+          "[sweep]") {
   for (const LightKind kind : {LightKind::Directional, LightKind::Spot, LightKind::Point})
     for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear}) {
       CAPTURE(static_cast<int>(kind), static_cast<int>(filter));
@@ -199,7 +200,7 @@ TEST_CASE("a jitter alone marches nothing anew, whatever it is and when it rests
   CHECK(reused(rig).share == 1); // other slices
 }
 
-TEST_CASE("with jitter a frame that reuses is the frame in full but for where depth was sampled") {
+TEST_CASE("with jitter a frame that reuses is the frame in full but for where depth was sampled", "[sweep]") {
   for (const Changes changes : {Changes::Detect, Changes::Objects})
     for (const LightKind kind : {LightKind::Directional, LightKind::Spot, LightKind::Point}) {
       CAPTURE(static_cast<int>(changes), static_cast<int>(kind));

@@ -41,7 +41,7 @@ void setMedium(tests::ShaftRig& rig, const Rgb& scattering) {
 
 } // namespace
 
-TEST_CASE("low rank comes near the closed form with its terms, for every kind of light") {
+TEST_CASE("low rank comes near the closed form with its terms, for every kind of light", "[sweep]") {
   struct Case {
     Light light;
     double least; // error with eight terms; a spot's cone is that of the pixel's slice
@@ -102,7 +102,7 @@ TEST_CASE("low rank of a light that is not dimmed is finite and near") {
   CHECK(tests::errorWhere(dense, rig.picture(Technique::Tree), kEverywhere) <= 0.02);
 }
 
-TEST_CASE("low rank behind glass: sums of tints along rows are what one texel at a time brings") {
+TEST_CASE("low rank behind glass: sums of tints along rows are what one texel at a time brings", "[sweep]") {
   struct Case {
     Light light;
     int cascades;

@@ -62,7 +62,7 @@ std::string copyOf(std::size_t light) {
 
 } // namespace
 
-TEST_CASE("cube maps in which a box moves: a frame that reuses is what it would be in full") {
+TEST_CASE("cube maps in which a box moves: a frame that reuses is what it would be in full", "[sweep]") {
   Lamps lamps;
   for (int frame = 0; frame < 4; ++frame) {
     CAPTURE(frame);
@@ -103,7 +103,7 @@ TEST_CASE("copies of maps that are stated to be the same are kept, also when the
   checkSame(encoded, full(lamps.rig));
 }
 
-TEST_CASE("rectangles that move in their texture are not taken for what was there before") {
+TEST_CASE("rectangles that move in their texture are not taken for what was there before", "[sweep]") {
   ShaftRig rig(64, 48);
   Light light = tests::shaftLight(LightKind::Directional);
   light.shadow.views = tests::shadowViews(light, 2);
@@ -128,7 +128,7 @@ TEST_CASE("rectangles that move in their texture are not taken for what was ther
   }
 }
 
-TEST_CASE("what is prepared for cubes, atlases and encodings is all that is compiled") {
+TEST_CASE("what is prepared for cubes, atlases and encodings is all that is compiled", "[sweep]") {
   for (const Layout layout : {Layout::Cube, Layout::CubeArray, Layout::Atlas})
     for (const Changes changes : {Changes::Unknown, Changes::Detect}) {
       CAPTURE(static_cast<int>(layout), static_cast<int>(changes));

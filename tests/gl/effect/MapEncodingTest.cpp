@@ -105,11 +105,11 @@ void checkAll(LightKind kind, const std::vector<Layout>& layouts) {
 
 } // namespace
 
-TEST_CASE("a sun's depths along its views' axes give the picture of window depths") {
+TEST_CASE("a sun's depths along its views' axes give the picture of window depths", "[sweep]") {
   checkAll(LightKind::Directional, {Layout::Array, Layout::Atlas, Layout::Sheets});
 }
 
-TEST_CASE("a lamp's depths that are distances give the picture of window depths") {
+TEST_CASE("a lamp's depths that are distances give the picture of window depths", "[sweep]") {
   checkAll(LightKind::Point, {Layout::Cube, Layout::CubeArray, Layout::Atlas, Layout::Array, Layout::Sheets});
 }
 

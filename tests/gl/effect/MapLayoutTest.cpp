@@ -55,11 +55,11 @@ void checkTiles(LightKind kind) {
 
 } // namespace
 
-TEST_CASE("tiles of an atlas give a sun the picture of an array, and nothing beside them is read") {
+TEST_CASE("tiles of an atlas give a sun the picture of an array, and nothing beside them is read", "[sweep]") {
   checkTiles(LightKind::Directional);
 }
 
-TEST_CASE("tiles of an atlas give a lamp the picture of an array, and nothing beside them is read") {
+TEST_CASE("tiles of an atlas give a lamp the picture of an array, and nothing beside them is read", "[sweep]") {
   checkTiles(LightKind::Point);
 }
 
@@ -118,7 +118,7 @@ struct MixedMaps {
 
 } // namespace
 
-TEST_CASE("views of several sizes: in an atlas as in an array, and as many texels for one change nothing") {
+TEST_CASE("views of several sizes: in an atlas as in an array, and as many texels for one change nothing", "[sweep]") {
   for (const LightKind kind : {LightKind::Directional, LightKind::Point}) {
     const std::unique_ptr<ShaftRig> rig = tests::layoutRig(kind, false);
     const MixedMaps maps(*rig);
@@ -167,7 +167,7 @@ TEST_CASE("a cube map's reversed depth, endless or not, is read as its matrices 
     }
 }
 
-TEST_CASE("smoke dims a lamp alike wherever its maps lie") {
+TEST_CASE("smoke dims a lamp alike wherever its maps lie", "[sweep]") {
   if (tests::testContext().glVersion() < 43) return; // adaptive volumetric shadow maps need it
   AvsmConfig config = tests::configOf(CurveReduction::Sorted, 16, 4, true);
   config.layers = 6;

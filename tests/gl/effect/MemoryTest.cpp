@@ -44,7 +44,7 @@ struct Case {
 
 } // namespace
 
-TEST_CASE("own textures stay small beside a large picture and shadow map") {
+TEST_CASE("own textures stay small beside a large picture and shadow map", "[sweep]") {
   for (const Case& item : {Case{Profile::High, 44}, Case{Profile::Balanced, 22}, Case{Profile::Performance, 9}})
     for (const bool coloured : {false, true}) {
       CAPTURE(static_cast<int>(item.profile), coloured);

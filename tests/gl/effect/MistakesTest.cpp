@@ -89,7 +89,7 @@ TEST_CASE("mistakes that integrators make are each named by an error or a warnin
   }
 }
 
-TEST_CASE("right inputs are warned of nowhere: lights, conventions, cameras") {
+TEST_CASE("right inputs are warned of nowhere: lights, conventions, cameras", "[sweep]") {
   for (const LightKind kind : {kSun, kLamp, kSpot}) {
     CAPTURE(static_cast<int>(kind));
     tests::ShaftRig rig = rightRig(kind);

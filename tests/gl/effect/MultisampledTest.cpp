@@ -39,7 +39,8 @@ struct SampledRig {
 
 } // namespace
 
-TEST_CASE("samples that differ: every technique is as near to exact on the same samples as it is with one a pixel") {
+TEST_CASE("samples that differ: every technique is as near to exact on the same samples as it is with one a pixel",
+          "[sweep]") {
   tests::testContext();
   GLint most = 0;
   host::gl().GetIntegerv(GL_MAX_DEPTH_TEXTURE_SAMPLES, &most);
@@ -66,7 +67,7 @@ TEST_CASE("samples that differ: every technique is as near to exact on the same 
       }
 }
 
-TEST_CASE("samples that are all the same give the picture of one depth a pixel, bit for bit") {
+TEST_CASE("samples that are all the same give the picture of one depth a pixel, bit for bit", "[sweep]") {
   for (const Technique technique : {Technique::Epipolar, Technique::Tree, Technique::LowRank}) {
     CAPTURE(static_cast<int>(technique));
     SampledRig sampled(LightKind::Spot, 4);

@@ -156,7 +156,7 @@ TEST_CASE("exact equals map-exact with texels and panes that are infinite or not
     }
 }
 
-TEST_CASE("texels that are not numbers do not count as a change") {
+TEST_CASE("texels that are not numbers do not count as a change", "[sweep]") {
   for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear}) {
     CAPTURE(static_cast<int>(filter));
     tests::ShaftRig rig(48, 32);

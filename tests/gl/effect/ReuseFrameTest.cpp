@@ -272,7 +272,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a light of several draws keeps its slices while another one's change") {
+TEST_CASE("a light of several draws keeps its slices while another one's change", "[sweep]") {
   tests::ShaftRig rig(8192, 1); // so many slices that four views do not fit
   Light cascaded = sun();
   cascaded.shadow.views = tests::shadowViews(cascaded, 4);

@@ -105,7 +105,7 @@ bool covers(const std::vector<bool>& mask, const reference::Image& a, const refe
 
 } // namespace
 
-TEST_CASE("the mask holds every pixel that changes, and without a tile along its border it does not") {
+TEST_CASE("the mask holds every pixel that changes, and without a tile along its border it does not", "[sweep]") {
   for (const Changes changes : {Changes::Detect, Changes::Objects})
     for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear}) {
       CAPTURE(static_cast<int>(changes), static_cast<int>(filter));

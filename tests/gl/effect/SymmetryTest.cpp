@@ -65,7 +65,7 @@ TEST_CASE("glass that lets everything through equals no glass") {
   });
 }
 
-TEST_CASE("glass whose texture gives its channels in another order equals glass stored so") {
+TEST_CASE("glass whose texture gives its channels in another order equals glass stored so", "[sweep]") {
   for (const Technique technique : {Technique::Exact, Technique::Epipolar}) {
     CAPTURE(static_cast<int>(technique));
     tests::SceneRig rig;

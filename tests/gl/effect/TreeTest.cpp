@@ -120,7 +120,7 @@ double visitsThroughSlats(float averageThreshold) {
 
 } // namespace
 
-TEST_CASE("nodes between two layers of casters are taken by their average") {
+TEST_CASE("nodes between two layers of casters are taken by their average", "[sweep]") {
   bool averagedLamp = false;
   for (const bool glass : {false, true})
     for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear}) {
@@ -139,19 +139,19 @@ TEST_CASE("averages spare most visits behind slats") {
   CHECK(averaged <= 0.4 * opened);
 }
 
-TEST_CASE("the tree of a row only saves time: the picture is the same without it") {
+TEST_CASE("the tree of a row only saves time: the picture is the same without it", "[sweep]") {
   checkSwitch(suns().front(), ShadowFilter::Nearest, false);
   checkSwitch(suns().back(), ShadowFilter::Bilinear, false);
   checkSwitch(lamps().front(), ShadowFilter::Bilinear, true);
   checkSwitch(lamps().back(), ShadowFilter::Nearest, false);
 }
 
-TEST_CASE("tree comes close to exact for a sun with one to four cascades") {
+TEST_CASE("tree comes close to exact for a sun with one to four cascades", "[sweep]") {
   for (const Case& item : suns())
     checkTree(item, item.light.shadow.views.size() % 4 == 0);
 }
 
-TEST_CASE("tree comes close to exact for lamps with the eye inside, beside and behind their light") {
+TEST_CASE("tree comes close to exact for lamps with the eye inside, beside and behind their light", "[sweep]") {
   for (const Case& item : lamps())
     checkTree(item, item.light.kind == LightKind::Spot);
 }

@@ -128,7 +128,7 @@ double medianError(const std::vector<Point>& curve) {
 
 } // namespace
 
-TEST_CASE("a turning camera sees no error that stands out and no jump") {
+TEST_CASE("a turning camera sees no error that stands out and no jump", "[sweep]") {
   for (const Turn& turn : kTurns) {
     TurningRig rig(turn);
     const std::vector<Point> all = rig.curve(), curve = litFrames(all);

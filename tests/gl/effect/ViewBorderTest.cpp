@@ -151,7 +151,7 @@ void checkDark(const Light& light, const std::vector<Eye>& eyes) {
 
 } // namespace
 
-TEST_CASE("a spot whose map is exactly as wide as its cone leaks no light around it") {
+TEST_CASE("a spot whose map is exactly as wide as its cone leaks no light around it", "[sweep]") {
   for (const double degrees : {0.01, 0.1, 0.5, 5.0, 30.0, 80.0})
     for (const bool hard : {true, false})
       for (const bool floats : {false, true}) {
@@ -161,14 +161,14 @@ TEST_CASE("a spot whose map is exactly as wide as its cone leaks no light around
       }
 }
 
-TEST_CASE("a point light leaks no light along the edges of its cube of faces") {
+TEST_CASE("a point light leaks no light along the edges of its cube of faces", "[sweep]") {
   for (const bool floats : {false, true}) {
     CAPTURE(floats);
     checkDark(pointInACube(floats), eyesAlongEdges());
   }
 }
 
-TEST_CASE("two views of a sun leak no light along the side that they share") {
+TEST_CASE("two views of a sun leak no light along the side that they share", "[sweep]") {
   for (const bool same : {false, true})
     for (const bool floats : {false, true}) {
       CAPTURE(same, floats);
@@ -177,7 +177,7 @@ TEST_CASE("two views of a sun leak no light along the side that they share") {
     }
 }
 
-TEST_CASE("a cone wider than its map is lit outside it, or dark, as the light says") {
+TEST_CASE("a cone wider than its map is lit outside it, or dark, as the light says", "[sweep]") {
   for (const double degrees : {0.1, 5.0, 30.0}) {
     CAPTURE(degrees);
     const double angle = glm::radians(degrees);

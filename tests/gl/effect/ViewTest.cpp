@@ -217,7 +217,7 @@ TEST_CASE("the view of visits shows where the tree is walked, with its scale") {
   CHECK(large.at(10, 4).b < 0.2F); // its begin: black
 }
 
-TEST_CASE("the view of visits is counted: their mean a ray, which the tree makes smaller") {
+TEST_CASE("the view of visits is counted: their mean a ray, which the tree makes smaller", "[sweep]") {
   for (const LightKind kind : kKinds)
     for (const Technique technique : {Technique::Tree, Technique::Epipolar}) {
       CAPTURE(static_cast<int>(kind), static_cast<int>(technique));

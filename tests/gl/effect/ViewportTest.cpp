@@ -256,7 +256,7 @@ TEST_CASE(
       }
 }
 
-TEST_CASE("a viewport of larger textures holds the same picture in every format") {
+TEST_CASE("a viewport of larger textures holds the same picture in every format", "[sweep]") {
   tests::SceneRig rig = litRig();
   for (const auto& effect : effects())
     for (const GLenum format : {GL_RGBA32F, GL_R11F_G11F_B10F})
@@ -268,7 +268,7 @@ TEST_CASE("a viewport of larger textures holds the same picture in every format"
       }
 }
 
-TEST_CASE("a viewport of larger textures holds the same debug views") {
+TEST_CASE("a viewport of larger textures holds the same debug views", "[sweep]") {
   tests::SceneRig rig = litRig();
   for (const auto& effect : effects())
     for (int view = 1; view <= static_cast<int>(DebugView::Redrawn); ++view)
