@@ -89,6 +89,14 @@ struct Airlight {
 #endif
 };
 
+// A length from s on over which the airlight changes by about a tenth in any channel that is left, but for a phase function's peak.
+float steadyLength(Airlight light, float s) {
+  const float kNone = 80.0; // optical depths of which floats hold no light
+  float t = s - light.foot, r = sqrt(t * t + light.height2);
+  vec3 left = mix(extinction, vec3(0.0), greaterThan(extinction * (s + r), vec3(kNone)));
+  return 0.1 * min(0.5 / max(max(left.r, max(left.g, left.b)), 1e-30), r);
+}
+
 // The longest span over which a line stands for the airlight: `most` bounds its optical depth and its length by the distance
 // to the lamp at its nearest, a quarter of it where a cone's edge may lie in the span.
 float evenLength(Airlight light, float most) {
@@ -109,7 +117,12 @@ ConeRay coneRayOf(vec3 direction, vec3 footFromLight) {
   // Both crosses lie in the plane across the axis: in the direction of the second and across it.
   vec3 crossFoot = cross(lightDirection, footFromLight), crossSlope = cross(lightDirection, direction);
   float slope = length(crossSlope), axisDistance = dot(lightDirection, cross(crossFoot, crossSlope));
-  vec3 along = slope > 0.0 ? vec3(dot(crossFoot, crossSlope) / slope, slope, axisDistance / slope) : vec3(length(crossFoot), 0.0, 0.0);
+  vec3 along = vec3(length(crossFoot), 0.0, 0.0);
+  if (slope > 0.0) {
+    along.xy = vec2(dot(crossFoot, crossSlope) / slope, slope);
+    // Next to parallel the second cross has a direction by rounding alone: whichever it is, the parts have to add up.
+    along.z = slope < 1e-3 ? sqrt(max(dot(crossFoot, crossFoot) - along.x * along.x, 0.0)) : axisDistance / slope;
+  }
   return ConeRay(vec2(dot(lightDirection, footFromLight), dot(lightDirection, direction)), along, axisDistance);
 }
 

@@ -284,7 +284,11 @@ void addTexels(Airlight light, ViewSegment segment, inout Light sum) {
   startCurves(segment, abs(d.x) >= abs(d.y), (abs(d.x) >= abs(d.y) ? d.x : d.y) < 0.0, 0);
 #endif
   // Bounds the loops whatever the arithmetic does: pieces of cells, changes between them, and one look at nodes every few cells.
-  int pieces = (kPiecesPerCell + 2) * walk.left + 8 + 1000 * FILTER_BILINEAR;
+  int pieces = (kPiecesPerCell + 2) * walk.left + 8;
+#if FILTER_BILINEAR
+  int cuts = 1000; // that steadiness may ask for: as many more pieces
+  pieces += cuts;
+#endif
   Visibility current = Visibility(0.0);
   float from = 0.0;
   bool done = false;
@@ -309,11 +313,13 @@ void addTexels(Airlight light, ViewSegment segment, inout Light sum) {
       }
 #endif
       float uCell = cellEnd(line, walk), uEnd = uCell;
-#if FILTER_BILINEAR && LIGHT_KIND == 0
+#if FILTER_BILINEAR
       // A mean visibility stands for a piece only where the airlight hardly changes.
-      float s = distanceAt(segment, walk.u);
-      uEnd = clamp(parameterAt(segment, s + steadyLength(light, s)), walk.u, uCell);
-      if (!(uEnd > walk.u)) uEnd = uCell;
+      float s = distanceAt(segment, walk.u), uSteady = parameterAt(segment, s + steadyLength(light, s));
+      if (cuts > 0 && uSteady > walk.u && uSteady < uCell) {
+        uEnd = uSteady;
+        --cuts;
+      }
 #endif
       Visibility visibility = Visibility(0.0);
       if (!done) visibility = pieceVisibility(line, walk.cell, view, walk.u, uEnd);

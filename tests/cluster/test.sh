@@ -154,7 +154,11 @@ require test -z "$(find out -name '.*' ! -name .)"
 say "a whole frame is cut, another damaged; submitted again by the line that it gave"
 head -c 1000 plain/0001.exr >out/frames/0001.exr
 head -c -1 plain/0004.png >out/frames/0004.png
-find out/frames -type f ! -name 0001.\* ! -name 0004.\* -printf '%i %f\n' | sort >kept
+# A task may have been killed between the two files of a frame.
+find out/frames -type f ! -name 0001.\* ! -name 0004.\* -printf '%i %f\n' | sort >there
+while read -r inode name; do
+  [ ! -f "out/frames/${name%.*}.exr" ] || [ ! -f "out/frames/${name%.*}.png" ] || echo "$inode $name"
+done <there >kept
 sed -n 's/^film: this renders them and no others: //p' "$log" >again.sh
 sh again.sh >submitted
 cat submitted

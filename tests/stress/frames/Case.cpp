@@ -112,7 +112,8 @@ Case makeCase(std::uint64_t seed, const AxisSet& simple) {
     made.relation = static_cast<Relation>(random.integer(0, kRelations - 1));
   if (Random random(seed, Axis::World); !simple.has(Axis::World)) {
     made.worldScale = random.chance(0.5) ? 1 : random.logUniform(1e-4, 1e5);
-    const double offset = random.chance(0.5) ? 0 : random.logUniform(1, 1e7);
+    const double most = std::min(1e7, 1e9 * made.worldScale); // beyond that doubles do not hold the scene
+    const double offset = random.chance(0.5) ? 0 : random.logUniform(1, most);
     tests::transformWorld(made.frame, made.worldScale, offset * random.direction());
   }
   return made;
