@@ -12,17 +12,18 @@ float encodedDistance(float depth) {
 // At a map's own end there is nothing, wherever the far plane is.
 bool isEncodedSky(float depth) { return depthEncoding == 3 ? depth >= 1.0 : depth == 1.0 && depthUnit != 1.0; }
 
-// What a value is to rayEnd(): window depth itself, of other encodings t, which is 0 for the sky. NaN stays what it is.
+// What a value is to rayEnd(): window depth itself, of other encodings t, which is 0 for the sky, or, orthographic, the share of the
+// volume before it, 1 for the sky. NaN stays what it is.
 float plainDepth(vec2 windowPosition, float depth) {
   if (depthEncoding == 0) return depth;
   vec2 p = windowPosition - 0.5 * vec2(frameSize);
   vec4 far = farPoint[0] + p.x * farPoint[1] + p.y * farPoint[2];
   float end = encodedDistance(depth);
-  if (isEncodedSky(depth)) return 0.0;
   if (isOrthographic != 0) {
-    float t = 1.0 + end / dot(depthAxis, nearStep.xyz);
-    return t <= skyRounding ? 0.0 : t;
+    float share = -end / dot(depthAxis, nearStep.xyz);
+    return isEncodedSky(depth) || 1.0 - share <= skyRounding ? 1.0 : share;
   }
+  if (isEncodedSky(depth)) return 0.0;
   if (end <= 0.0) return 1e30; // at the eye
   float beyond = (depthEncoding == 2 ? length(far.xyz) : dot(depthAxis, far.xyz)) / end - far.w;
   return beyond <= skyRounding * far.w ? 0.0 : beyond / nearStep.w;

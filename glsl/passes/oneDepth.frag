@@ -10,8 +10,8 @@ layout(location = 0) out vec4 outDepth;
 
 // How far a ray ends, up to a factor; a sky's is far.
 float measureOf(float depth) {
+  if (isOrthographic != 0) return depthShare(depth);
   float t = depthOffset + depthScale * depth;
-  if (isOrthographic != 0) return 1.0 - t;
   vec2 p = unjittered(gl_FragCoord.xy) - 0.5 * vec2(frameSize);
   return 1.0 / (farPoint[0].w + p.x * farPoint[1].w + p.y * farPoint[2].w + t * nearStep.w);
 }

@@ -107,7 +107,12 @@ Rectangle texelsOf(const ShadowView& view, int width, int height) {
 }
 
 glm::dvec3 cameraOrigin(const Camera& camera) {
-  return eyeOf(depthFromClip(camera.clipDepth) * toGlm(camera.clipFromView) * toGlm(camera.viewFromWorld));
+  const glm::dmat4 viewFromWorld = toGlm(camera.viewFromWorld);
+  const glm::dmat4 depthClipFromWorld = depthFromClip(camera.clipDepth) * toGlm(camera.clipFromView) * viewFromWorld;
+  if (!isOrthographic(depthClipFromWorld)) return eyeOf(depthClipFromWorld);
+  const bool reversed = isReversed(depthClipFromWorld, -glm::dvec3(glm::transpose(viewFromWorld)[2]));
+  const glm::dvec4 point = glm::inverse(depthClipFromWorld) * glm::dvec4(0, 0, reversed ? 1 : 0, 1);
+  return glm::dvec3(point) / point.w;
 }
 
 double farthestEnd(const blocks::FrameBlock& block) {
@@ -241,10 +246,7 @@ double extentOf(const Camera& camera) {
   const glm::dmat4 clipFromWorld = toGlm(camera.clipFromView) * toGlm(camera.viewFromWorld);
   if (!isOrthographic(clipFromWorld)) return 0;
   const glm::dmat4 worldFromClip = glm::inverse(clipFromWorld);
-  double sum = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    sum += glm::length(glm::dvec3(worldFromClip[axis]));
-  return sum;
+  return glm::length(glm::dvec3(worldFromClip[0])) + glm::length(glm::dvec3(worldFromClip[1]));
 }
 
 } // namespace

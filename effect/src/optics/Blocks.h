@@ -16,7 +16,8 @@ struct FrameSizes {
   float depthRounding = 0; ///< share of a distance by which the depth's format rounds it
 };
 
-/// The point that shader positions are relative to: the eye, or the clip volume's centre if orthographic.
+/// The point that shader positions are relative to: the eye, or the middle of the near plane if orthographic, where
+/// rays begin: a far plane at any distance takes nothing from floats.
 glm::dvec3 cameraOrigin(const Camera& camera);
 
 /// The frame's camera is without its jitter (optics/Jitter.h), here and elsewhere in optics.

@@ -57,8 +57,9 @@ void setEngineDepth(blocks::FrameBlock& block, const Frame& frame, float roundin
   block.depthEncoding = static_cast<int>(depth.encoding);
   block.depthAxis = viewAxis(frame.camera, block.isOrthographic != 0);
   block.skyRounding = rounding;
-  block.depthOffset = 0; // what passes read is t
-  block.depthScale = 1;
+  const bool orthographic = block.isOrthographic != 0; // what passes read is 1 - t, else t
+  block.depthOffset = orthographic ? 1 : 0;
+  block.depthScale = orthographic ? -1 : 1;
   setMeasure(block, depth);
 }
 

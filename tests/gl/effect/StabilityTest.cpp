@@ -294,3 +294,60 @@ TEST_CASE("values at the ends of float32 stay finite") {
         tests::checkFinite(rig);
       }
 }
+
+TEST_CASE("filtered shadows of a lamp in a coarse map are exact in thick media, too") {
+  for (const LightKind kind : {LightKind::Point, LightKind::Spot})
+    for (const float scattering : {0.05F, 2.0F, 10.0F}) {
+      CAPTURE(static_cast<int>(kind), scattering);
+      tests::SceneRig rig;
+      Light& light = rig.addLight(kind);
+      light.position = {0, 1.2, 4.5}; // a way of less than two optical depths, or of tens
+      rig.frame.medium.constituents = {{{scattering, 0.3F * scattering, 0.01F}, Phase::HenyeyGreenstein, 0.6F}};
+      rig.frame.settings.shadowFilter = ShadowFilter::Bilinear;
+      reference::ShadowImage map;
+      map.width = map.height = 3;
+      map.layers = static_cast<int>(light.shadow.views.size());
+      map.depth = tests::casterDepths(tests::Casters::Blocks, kind, 3, map.layers);
+      rig.setShadow(0, map);
+      rig.render();
+      checkAgainstReference(rig, 5e-3);
+    }
+}
+
+TEST_CASE("a spot along an orthographic camera's rays lights nothing outside its cone") {
+  for (const double turn : {0.0, 1e-9, 1e-7, 3e-4})
+    for (const double side : {-1.0, 1.0}) {
+      CAPTURE(turn, side);
+      tests::SceneRig rig;
+      tests::DepthConvention convention;
+      convention.orthographic = true;
+      rig.setConvention(convention);
+      Light& light = rig.addLight(LightKind::Spot, tests::Casters::None);
+      const glm::dmat4 worldFromView = glm::inverse(reference::toMat4(rig.frame.camera.viewFromWorld));
+      light.position = toVec3(glm::dvec3(worldFromView * glm::dvec4(-0.13, 0.21, -5, 1)));
+      light.direction = toVec3(glm::dvec3(worldFromView * glm::dvec4(turn, 0.3 * turn, side, 0)));
+      light.innerConeAngle = 0.3F;
+      light.outerConeAngle = 0.5F;
+      rig.render();
+      checkAgainstReference(rig, 1e-3);
+    }
+}
+
+TEST_CASE("where an orthographic camera's far plane is changes nothing of what is near") {
+  for (const LightKind kind : kKinds) {
+    CAPTURE(static_cast<int>(kind));
+    for (const double far : {40.0, 1e4, 1e7}) {
+      CAPTURE(far);
+      tests::SceneRig rig;
+      tests::DepthConvention convention;
+      convention.orthographic = true;
+      convention.far = far;
+      for (double& distance : rig.distances)
+        distance = std::min(distance, 30.0); // no sky, whose rays end at the far plane or before
+      rig.setConvention(convention);
+      rig.addLight(kind);
+      rig.render();
+      checkAgainstReference(rig, 1e-3);
+    }
+  }
+}

@@ -22,13 +22,16 @@ void moveViews(std::vector<Light>& lights, const std::function<glm::dvec3(std::s
       view.clipFromWorld = moved(view.clipFromWorld, by(i));
 }
 
-/// Along the view direction.
-double nearDistance(const Camera& camera) {
+/// How far from the eye rays begin: those of an orthographic camera anywhere on its near plane.
+double farthestOrigin(const Camera& camera) {
+  if (camera.clipFromView[15] == 0) return 0; // perspective
   const reference::CameraRays rays(camera, 1, 1);
+  const double near = reference::ndcFromDepth(camera.clipDepth, rays.reversed() ? 1 : 0);
   const glm::dmat4 viewFromClip = glm::inverse(reference::toMat4(camera.clipFromView));
-  const glm::dvec4 point =
-      viewFromClip * glm::dvec4(0, 0, reference::ndcFromDepth(camera.clipDepth, rays.reversed() ? 1 : 0), 1);
-  return -point.z / point.w;
+  double farthest = 0;
+  for (const glm::dvec2& corner : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(1, 1)})
+    farthest = std::max(farthest, glm::length(glm::dvec3(viewFromClip * glm::dvec4(corner, near, 1))));
+  return farthest;
 }
 
 } // namespace
@@ -90,7 +93,7 @@ Range roundedTruth(const reference::MapScene& scene, const std::vector<glm::ivec
   constexpr float kSteps = 2.5e-7F; // two steps of a float
   constexpr int kAnswers = 32;
   const glm::dvec3 eye(glm::inverse(reference::toMat4(scene.camera.viewFromWorld))[3]);
-  const double nearest = std::abs(nearDistance(scene.camera)); // rays of an orthographic camera begin there
+  const double origin = farthestOrigin(scene.camera);
   Random random(scene.lights.size(), Axis::Size);
   const auto any = [&] { return random.uniform(-1, 1) * random.direction(); };
   Range range;
@@ -105,7 +108,7 @@ Range roundedTruth(const reference::MapScene& scene, const std::vector<glm::ivec
     // Where the light is, relative to the eye.
     for (Light& light : other.lights) {
       const glm::dvec3 position = reference::toVec3(light.position);
-      const double step = kRounding * (glm::length(position - eye) + nearest) + kOfWorld * glm::length(eye);
+      const double step = kRounding * (glm::length(position - eye) + origin) + kOfWorld * glm::length(eye);
       light.position = toVec3(position + step * any());
       light.direction = toVec3(glm::normalize(reference::toVec3(light.direction)) + kRounding * any());
     }
