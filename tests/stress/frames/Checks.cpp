@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fstream>
 #include <stdexcept>
 
 using namespace tyndall;
@@ -62,7 +63,8 @@ double mostAround(const reference::Image& image, int x, int y, std::size_t chann
 
 class Checker {
 public:
-  Checker(const Case& made, Effect& effect) : made_(made), rig_(made, effect) {}
+  Checker(const Case& made, Effect& effect, const std::string& pictures)
+      : made_(made), pictures_(pictures), rig_(made, effect) {}
 
   Outcome run(const std::set<std::string>& runs) {
     exactSettings_ = made_.frame.settings;
@@ -115,7 +117,15 @@ private:
           break;
         }
     if (!picture.isWithinViewport) add(name + ": viewport", 1, 0, "a texel outside was written");
+    if (!pictures_.empty()) write(picture.inscatter, fmt::format("{}/{}-{}.f32", pictures_, made_.seed, name));
     return picture;
+  }
+
+  static void write(const reference::Image& image, const std::string& file) {
+    const std::vector<float> values(image.rgb.begin(), image.rgb.end());
+    std::ofstream out(file, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(4 * values.size()));
+    if (!out.flush()) throw std::runtime_error(file + ": cannot be written");
   }
 
   reference::Image drawUnshadowed() {
@@ -273,6 +283,7 @@ private:
   }
 
   const Case& made_;
+  const std::string& pictures_;
   CaseRig rig_;
   Settings exactSettings_;
   Picture exact_;
@@ -289,10 +300,10 @@ const std::vector<std::string>& runNames() {
   return names;
 }
 
-Outcome check(const Case& made, Effect& effect, const std::set<std::string>& runs) {
+Outcome check(const Case& made, Effect& effect, const std::set<std::string>& runs, const std::string& pictures) {
   Outcome outcome;
   try {
-    Checker checker(made, effect);
+    Checker checker(made, effect, pictures);
     outcome = checker.run(runs);
     if (runs.empty() || runs.count("relation") > 0) checker.checkRelation(effect, outcome);
   } catch (const std::runtime_error& error) {

@@ -31,6 +31,8 @@ struct Outcome {
 const std::vector<std::string>& runNames();
 
 /// Draws the frame by techniques and profiles, and in its relation; `runs` empty: by all.
-Outcome check(const Case& made, tyndall::Effect& effect, const std::set<std::string>& runs = {});
+/// With `pictures`, a folder, each is written there as SEED-RUN.f32: RGB floats, row 0 at the bottom.
+Outcome check(const Case& made, tyndall::Effect& effect, const std::set<std::string>& runs = {},
+              const std::string& pictures = "");
 
 } // namespace stress

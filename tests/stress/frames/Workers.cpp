@@ -58,7 +58,7 @@ void send(int pipe, const nlohmann::json& message) {
     send(pipe, {{"begin", seed}});
     const auto begin = Clock::now();
     Report report;
-    const Outcome outcome = check(makeCase(seed, plan.simple), *effect, plan.runs);
+    const Outcome outcome = check(makeCase(seed, plan.simple), *effect, plan.runs, plan.pictures);
     report.add(seed, outcome, secondsSince(begin));
     for (const Finding& finding : outcome.findings) {
       AxisSet simple = plan.simple;

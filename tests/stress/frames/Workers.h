@@ -15,6 +15,7 @@ struct Plan {
   int jobs = 1;
   AxisSet simple;
   std::set<std::string> runs; ///< empty: all
+  std::string pictures;       ///< folder for them; empty: nowhere
   bool shrink = true;
   double hangSeconds = 120; ///< of a frame without an end
 };

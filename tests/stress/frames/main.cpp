@@ -2,6 +2,7 @@
 #include "Workers.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <render/CommandLine.h>
@@ -29,6 +30,7 @@ int runTool(int argc, const char* const* argv) {
   app.add_option("--runs", runs,
                  "Only these, between commas: exact, tree, epipolar, lowrank, performance, balanced, high, any "
                  "settings, relation");
+  app.add_option("--pictures", plan.pictures, "Folder for all pictures, SEED-RUN.f32, for compare.py");
   app.add_flag("--describe", describes, "Print what the frames are made of");
   app.add_flag("!--no-shrink", plan.shrink, "Leave findings as they are");
   app.add_option("--report", out, "File for the counts, JSON; what is in it already is added to");
@@ -47,6 +49,7 @@ int runTool(int argc, const char* const* argv) {
     }
   for (std::uint64_t i = 0; describes && i < plan.count; ++i)
     host::print(stress::describe(stress::makeCase(plan.first + i, plan.simple)));
+  if (!plan.pictures.empty()) std::filesystem::create_directories(plan.pictures);
   stress::Report report = stress::run(plan, [](const std::string& line) { host::print(line + "\n"); });
   const std::size_t found = report.findings();
   host::print(report.text());
