@@ -89,12 +89,16 @@ struct Airlight {
 #endif
 };
 
-// A length from s on over which the airlight changes by about a tenth in any channel that is left, but for a phase function's peak.
+// A length from s on over which the airlight changes by about a tenth in any channel that is left, but for a phase function's peak:
+// in P = r + t (below), for what is left falls by exp(-extinction P), and directions and 1 / r^2 change as P does relative to itself.
 float steadyLength(Airlight light, float s) {
-  const float kNone = 80.0; // optical depths of which floats hold no light
-  float t = s - light.foot, r = sqrt(t * t + light.height2);
-  vec3 left = mix(extinction, vec3(0.0), greaterThan(extinction * (s + r), vec3(kNone)));
-  return 0.1 * min(0.5 / max(max(left.r, max(left.g, left.b)), 1e-30), r);
+  const float kNone = 80.0, kFew = 12.0; // optical depths of which floats hold no light, and those that leave 6e-6 of what is next to the eye
+  float t = s - light.foot, r = sqrt(t * t + light.height2), P = t > 0.0 ? r + t : light.height2 / (r - t);
+  float nearest = sqrt(light.foot * light.foot + light.height2);
+  bvec3 isDark = greaterThan(extinction * max(vec3(kFew / kNone * (s + r)), vec3(s + r - nearest)), vec3(kFew));
+  vec3 left = mix(extinction, vec3(0.0), isDark);
+  float next = min(1.1 * P, P + 0.1 / max(max(left.r, max(left.g, left.b)), 1e-30));
+  return light.foot + 0.5 * (next - light.height2 / next) - s;
 }
 
 // The longest span over which a line stands for the airlight: `most` bounds its optical depth and its length by the distance
