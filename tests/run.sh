@@ -29,7 +29,7 @@ build_sanitized() {
   cmake -S . -B build-sanitize -G Ninja -DTYNDALL_BUILD_TESTS=ON -DTYNDALL_SANITIZE=ON -DCMAKE_BUILD_TYPE=RelWithDebInfo \
     -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -gline-tables-only -DNDEBUG" -DTYNDALL_SHADER_CACHE="$PWD/build/shader-cache" \
     -DCMAKE_C_COMPILER="clang-$clang_version" -DCMAKE_CXX_COMPILER="clang++-$clang_version" &&
-    cmake --build build-sanitize
+    cmake --build build-sanitize --target tyndall_sanitized_tests
 }
 
 # run_cases FOLDER [OPTION...]: ctest, which prints what fails whole.
