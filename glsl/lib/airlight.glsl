@@ -92,11 +92,11 @@ struct Airlight {
 // A length from s on over which the airlight changes by about a tenth in any channel that is left, but for a phase function's peak:
 // in P = r + t (below), for what is left falls by exp(-extinction P), and directions and 1 / r^2 change as P does relative to itself.
 float steadyLength(Airlight light, float s) {
-  const float kNone = 80.0, kFew = 12.0; // optical depths of which floats hold no light, and those that leave 6e-6 of what is next to the eye
+  // Optical depths of which floats hold no light, and those that leave 6e-6 of what is next to the eye.
+  const float kNone = 80.0, kFew = 12.0;
   float t = s - light.foot, r = sqrt(t * t + light.height2), P = t > 0.0 ? r + t : light.height2 / (r - t);
-  float nearest = sqrt(light.foot * light.foot + light.height2);
-  bvec3 isDark = greaterThan(extinction * max(vec3(kFew / kNone * (s + r)), vec3(s + r - nearest)), vec3(kFew));
-  vec3 left = mix(extinction, vec3(0.0), isDark);
+  float fromEye = s + r - sqrt(light.foot * light.foot + light.height2), passed = max(fromEye, kFew / kNone * (s + r));
+  vec3 left = mix(extinction, vec3(0.0), greaterThan(extinction * passed, vec3(kFew)));
   float next = min(1.1 * P, P + 0.1 / max(max(left.r, max(left.g, left.b)), 1e-30));
   return light.foot + 0.5 * (next - light.height2 / next) - s;
 }
