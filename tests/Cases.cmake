@@ -14,6 +14,9 @@ function(tyndall_add_cases target)
             -DTIMEOUT=${arg_TIMEOUT} "-DLABELS=${arg_LABELS}" "-DENVIRONMENT=${arg_ENVIRONMENT}"
             "-DSELECT=${arg_SELECT}" "-DOPTIONS=${TYNDALL_NO_TESTS_FAIL}"
             "-DLIST=${TYNDALL_LIST_TESTS}" -P ${PROJECT_SOURCE_DIR}/tests/Cases.cmake)
+  if(sanitize IN_LIST arg_LABELS)
+    add_dependencies(tyndall_sanitized_tests ${target})
+  endif()
   set(include ${CMAKE_CURRENT_BINARY_DIR}/${arg_PREFIX}.include.cmake)
   file(WRITE ${include} "include(\"${file}\" OPTIONAL RESULT_VARIABLE found)
 if(NOT found) # not built yet: a run that meets this fails

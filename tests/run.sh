@@ -79,6 +79,8 @@ test_plain() {
 # Each step is taken even where one before it failed: a build server is asked once for all that is wrong.
 failed=
 for step in lint test_plain build_sanitized test_sanitized; do
+  started=$(date +%s)
   "$step" || failed="$failed $step"
+  say "$step took $(($(date +%s) - started)) s"
 done
 [ -z "$failed" ] || { say "FAILED:$failed" && exit 1; }
