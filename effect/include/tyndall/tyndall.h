@@ -220,7 +220,7 @@ struct Light {
       0.7853981633974483; ///< spot: none beyond this half angle, 0 < outer <= pi/2. glTF's KHR_lights_punctual falloff
   bool litOutsideViews = true; ///< visibility where no shadow view reaches
   /// Directional: share of a cascade's width, at each of its sides and at its far plane, over which it fades into the
-  /// next one that reaches there; 0 to 0.5. 0: a seam
+  /// next one that reaches there; the last one does not fade. 0 to 0.5. 0: a seam
   double cascadeFade = 0;
   MediumBoundary boundary; ///< directional
   ShadowMap shadow;

@@ -32,6 +32,16 @@ TEST_CASE("a fade between cascades changes nothing where they agree", "[sweep]")
   }
 }
 
+TEST_CASE("the last cascade does not fade: there is none to fade into", "[sweep]") {
+  for (const Technique technique : {Technique::Exact, Technique::Tree, Technique::Epipolar}) {
+    CAPTURE(static_cast<int>(technique));
+    tests::ShaftRig rig = tests::smallShaftRig(technique);
+    const reference::Image hard = rig.picture(technique);
+    rig.scene.frame.lights[0].cascadeFade = 0.4;
+    CHECK(rig.picture(technique) == hard);
+  }
+}
+
 TEST_CASE("cascades that fade look alike by every technique", "[sweep]") {
   tests::ShaftRig rig(96, 64);
   Light light = tests::shaftLight(LightKind::Directional);

@@ -79,6 +79,13 @@ void checkEpipole(LightKind kind, const Epipole& epipole) {
   checkRegion(rig, image, "picture", [](int, int) { return true; });
   checkRegion(rig, image, "border",
               [](int x, int y) { return x == 0 || y == 0 || x == kWidth - 1 || y == kHeight - 1; });
+  checkRegion(rig, image, "silhouettes", [&](int x, int y) {
+    const auto distance = [&](int u, int v) { return rig.scene.distances[static_cast<std::size_t>(v * kWidth + u)]; };
+    const auto differs = [&](int u, int v) {
+      return u < kWidth && v < kHeight && std::abs(std::log(distance(u, v) / distance(x, y))) > 0.1;
+    };
+    return differs(x + 1, y) || differs(x, y + 1);
+  });
   if (epipole.w != 0 && epipole.x > -3 && epipole.x < kWidth + 3 && epipole.y > -3 && epipole.y < kHeight + 3)
     checkRegion(rig, image, "epipole",
                 [&](int x, int y) { return std::hypot(x + 0.5 - epipole.x, y + 0.5 - epipole.y) < 3.5; });

@@ -168,3 +168,53 @@ TEST_CASE("texels that are not numbers do not count as a change", "[sweep]") {
     CHECK(tests::reuse::reused(rig).share == 0);
   }
 }
+
+TEST_CASE("depth that is odd for a frame leaves nothing in the frames after it", "[sweep]") {
+  for (const Changes changes : {Changes::Detect, Changes::Objects})
+    for (const float odd : {kNan, kInf, -1.0F}) {
+      CAPTURE(static_cast<int>(changes), odd);
+      tests::ShaftRig rig(48, 32);
+      rig.addLight(tests::shaftLight(LightKind::Directional), 64);
+      rig.addLight(tests::reuse::spot(), 64);
+      tests::reuse::begin(rig, changes);
+      Frame& frame = rig.scene.frame;
+      const std::vector<float> clean = rig.scene.depth();
+      std::vector<float> spoilt = clean;
+      for (std::size_t y = 10; y < 18; ++y)
+        for (std::size_t x = 20; x < 26; ++x)
+          spoilt[y * 48 + x] = odd;
+      const glm::dmat4 everywhere = glm::scale(glm::dmat4(1), glm::dvec3(60)); // of what has changed
+      for (const bool isSpoilt : {false, true, false, true, true, false}) {
+        rig.scene.setDepth(isSpoilt ? spoilt : clean);
+        ++frame.reuse.frame;
+        frame.objects.clear();
+        if (changes == Changes::Objects && frame.reuse.frame > 1)
+          frame.objects = {tests::reuse::between(everywhere, everywhere)};
+        const tests::reuse::Picture picture = tests::reuse::reused(rig);
+        tests::reuse::checkSame(picture, tests::reuse::full(rig));
+        CHECK(tests::isFiniteAndNonNegative(picture.answer.inscatter));
+        CHECK(tests::isFiniteAndNonNegative(picture.answer.transmittance));
+      }
+      ++frame.reuse.frame;
+      frame.objects.clear();
+      CHECK(tests::reuse::reused(rig).share == 0);
+    }
+}
+
+// One that lies before the near plane shades all behind it, one beyond the far plane nothing in front of that.
+TEST_CASE("shadow texels outside of 0 to 1 are the ends of that range, by every technique", "[sweep]") {
+  for (const LightKind kind : {LightKind::Directional, LightKind::Spot})
+    for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear}) {
+      tests::ShaftRig rig(48, 32);
+      rig.addLight(tests::shaftLight(kind), 64);
+      rig.scene.frame.settings.shadowFilter = filter;
+      for (const Technique technique : {Technique::Exact, Technique::Tree, Technique::Epipolar, Technique::LowRank})
+        for (const float odd : {1.5F, 1e30F, kInf, -0.5F, -1e30F, -kInf}) {
+          CAPTURE(static_cast<int>(kind), static_cast<int>(filter), static_cast<int>(technique), odd);
+          const tests::ShadowRig end = spoil(rig, 0, odd > 0 ? 1.0F : 0.0F, 0);
+          const reference::Image expected = rig.picture(technique);
+          const tests::ShadowRig beyond = spoil(rig, 0, odd, 0);
+          CHECK(tests::difference(rig.picture(technique), expected) <= 1e-6);
+        }
+    }
+}

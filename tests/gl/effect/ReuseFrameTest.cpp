@@ -44,6 +44,24 @@ TEST_CASE("where nothing has changed the last picture is shown, bit for bit, for
   }
 }
 
+TEST_CASE("shadows that are switched off and on again are drawn in full, and are those that there were") {
+  for (const Changes changes : {Changes::Detect, Changes::Objects}) {
+    CAPTURE(static_cast<int>(changes));
+    tests::ShaftRig rig = sunlit(changes);
+    const ShadowMap shadow = rig.scene.frame.lights[0].shadow;
+    CHECK(shareOf(rig) == 1);
+    const reference::ImageAnswer shadowed = rig.scene.outputs();
+    for (int times = 0; times < 2; ++times) {
+      rig.scene.frame.lights[0].shadow = {};
+      CHECK(shareOf(rig) == 1);
+      CHECK(tests::difference(rig.scene.outputs().inscatter, shadowed.inscatter) > 0.1);
+      rig.scene.frame.lights[0].shadow = shadow;
+      CHECK(shareOf(rig) == 1);
+      CHECK(tests::difference(rig.scene.outputs().inscatter, shadowed.inscatter) <= 1e-5);
+    }
+  }
+}
+
 TEST_CASE("a version that differs, also a lower one, is a change; one that is not stated is compared") {
   tests::ShaftRig rig = sunlit(Changes::Detect);
   Frame& frame = rig.scene.frame;

@@ -28,6 +28,11 @@ void Report::addFinding(std::uint64_t seed, const Finding& finding, const std::s
                        {"simple", simple}});
 }
 
+void Report::addLoops(std::uint64_t seed, const std::map<std::string, std::uint32_t>& turns) {
+  for (const auto& [name, most] : turns)
+    if (auto& known = loops_[name]; most > known.first) known = {most, seed};
+}
+
 void Report::merge(const nlohmann::json& other) {
   frames_ += other.at("frames").get<std::uint64_t>();
   pictures_ += other.at("pictures").get<std::uint64_t>();
@@ -38,14 +43,20 @@ void Report::merge(const nlohmann::json& other) {
       errors_[run][i] += counts[i].get<std::uint64_t>();
   for (const auto& [run, count] : other.at("ill_conditioned").items())
     illConditioned_[run] += count.get<std::uint64_t>();
+  for (const auto& [name, most] : other.at("loops").items())
+    addLoops(most.at(1), {{name, most.at(0)}});
   for (const nlohmann::json& finding : other.at("findings"))
     findings_.push_back(finding);
 }
 
 nlohmann::json Report::json() const {
-  return {{"frames", frames_},           {"pictures", pictures_},
-          {"longest_seconds", longest_}, {"longest_seed", longestSeed_},
-          {"errors", errors_},           {"ill_conditioned", illConditioned_},
+  return {{"frames", frames_},
+          {"pictures", pictures_},
+          {"longest_seconds", longest_},
+          {"longest_seed", longestSeed_},
+          {"errors", errors_},
+          {"ill_conditioned", illConditioned_},
+          {"loops", loops_},
           {"findings", findings_}};
 }
 
@@ -66,6 +77,9 @@ std::string Report::text() const {
     const auto ill = illConditioned_.find(run);
     text += fmt::format(" {} |\n", ill == illConditioned_.end() ? 0 : ill->second);
   }
+  if (!loops_.empty()) text += "\n| loop, or all loops of a pass | most turns | seed |\n|---|---|---|\n";
+  for (const auto& [name, most] : loops_)
+    text += fmt::format("| `{}` | {} | {} |\n", name, most.first, most.second);
   return text;
 }
 

@@ -14,6 +14,8 @@ class Report {
 public:
   void add(std::uint64_t seed, const Outcome& outcome, double seconds);
   void addFinding(std::uint64_t seed, const Finding& finding, const std::string& simple);
+  /// The most turns of loops, by name: LoopCounter.
+  void addLoops(std::uint64_t seed, const std::map<std::string, std::uint32_t>& turns);
   void merge(const nlohmann::json& other);
 
   nlohmann::json json() const;
@@ -27,6 +29,7 @@ private:
   std::uint64_t longestSeed_ = 0;
   std::map<std::string, std::array<std::uint64_t, kErrorClasses.size() + 1>> errors_; ///< by run
   std::map<std::string, std::uint64_t> illConditioned_;
+  std::map<std::string, std::pair<std::uint32_t, std::uint64_t>> loops_; ///< most turns, and of which seed
   std::vector<nlohmann::json> findings_;
 };
 

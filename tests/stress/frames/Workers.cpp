@@ -1,5 +1,7 @@
 #include "Workers.h"
 
+#include "LoopCounter.h"
+
 #include <chrono>
 #include <csignal>
 #include <fmt/format.h>
@@ -51,6 +53,8 @@ void send(int pipe, const nlohmann::json& message) {
   const auto start = Clock::now();
   tyndall::Config config;
   config.loader = tests::testContext().loader();
+  std::optional<LoopCounter> loops;
+  if (plan.loops) config.loader = loops.emplace().loader();
   const std::unique_ptr<tyndall::Effect> effect = tyndall::Effect::create(config).effect;
   if (!effect) _exit(2);
   std::map<std::string, int> shrunkOf;
@@ -60,6 +64,7 @@ void send(int pipe, const nlohmann::json& message) {
     Report report;
     const Outcome outcome = check(makeCase(seed, plan.simple), *effect, plan.runs, plan.pictures);
     report.add(seed, outcome, secondsSince(begin));
+    if (loops) report.addLoops(seed, loops->take());
     for (const Finding& finding : outcome.findings) {
       AxisSet simple = plan.simple;
       if (plan.shrink && ++shrunkOf[finding.check] <= 3)

@@ -17,6 +17,7 @@ struct Plan {
   std::set<std::string> runs; ///< empty: all
   std::string pictures;       ///< folder for them; empty: nowhere
   bool shrink = true;
+  bool loops = false;       ///< counts the turns of the shaders' loops
   double hangSeconds = 120; ///< of a frame without an end
 };
 

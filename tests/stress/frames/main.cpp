@@ -33,6 +33,7 @@ int runTool(int argc, const char* const* argv) {
   app.add_option("--pictures", plan.pictures, "Folder for all pictures, SEED-RUN.f32, for compare.py");
   app.add_flag("--describe", describes, "Print what the frames are made of");
   app.add_flag("!--no-shrink", plan.shrink, "Leave findings as they are");
+  app.add_flag("--loops", plan.loops, "Count the turns of the shaders' loops; needs OpenGL 4.3");
   app.add_option("--report", out, "File for the counts, JSON; what is in it already is added to");
   render::parseArguments(app, argc, argv);
   try {

@@ -91,6 +91,7 @@ void changeLight(ScriptState& s, Random& r) {
 void changeMap(ScriptState& s, Random& r) {
   LightState* light = anyLight(s, r);
   if (!light) return;
+  light->hasMap = r.chance(0.85);
   light->mapSize = r.pick<int>({5, 12, 12, 24, 30});
   light->format = r.pick<Format>({0, 0, GL_DEPTH_COMPONENT16});
   const bool single = light->kind != LightKind::Point && light->cascades == 1;

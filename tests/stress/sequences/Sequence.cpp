@@ -17,8 +17,10 @@ namespace {
 
 using Trouble = std::optional<std::string>;
 
-constexpr double kRounding = 1e-5;   // of what reuse promises: as tests/gl/effect/ReuseRig.h
-constexpr double kOtherJitter = 0.1; // root mean square that another jitter's depth may come to in tiny pictures: Reuse
+constexpr double kRounding = 1e-5; // of what reuse promises: as tests/gl/effect/ReuseRig.h
+constexpr double kOtherJitter =
+    0.1;                        // root mean square that another jitter's depth may come to in small pictures: Reuse,
+constexpr int kFewPixels = 400; // but for those of so few that it promises nothing of them
 
 // A frame that breaks a rule.
 Frame spoilt(const Frame& frame, int how) {
@@ -292,7 +294,7 @@ Trouble Sequence::checkFull(const ScriptState& state, const Contents& got, const
     double others = kOtherJitter;
     for (const Contents& other : jitters)
       others = std::max(others, differenceOf(other, wanted, state).rootMeanSquare);
-    if (difference.rootMeanSquare > others)
+    if (difference.rootMeanSquare > others && state.width * state.height >= kFewPixels)
       return "differs by " + std::to_string(difference.rootMeanSquare) +
              ", and the pictures of the jitters that it is of by " + std::to_string(others) + ": " + difference.where;
     ++tally_.mixed;
