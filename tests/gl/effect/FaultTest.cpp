@@ -31,17 +31,12 @@ void checkAll(Fault kind) {
 
 } // namespace
 
-TEST_CASE("faults: a shader that does not compile, whichever, draws nothing", "[once][slow]") {
-  checkAll(Fault::Compile);
-}
-TEST_CASE("faults: a program that does not link, whichever, draws nothing", "[once][slow]") { checkAll(Fault::Link); }
-TEST_CASE("faults: a texture without memory, whichever, draws nothing", "[once][slow]") { checkAll(Fault::Texture); }
-TEST_CASE("faults: a renderbuffer without memory, whichever, draws nothing", "[once][slow]") {
-  checkAll(Fault::Renderbuffer);
-}
-TEST_CASE("faults: a buffer without memory, whichever, draws nothing", "[once][slow]") { checkAll(Fault::Buffer); }
-TEST_CASE("faults: a framebuffer that is refused, whichever, draws nothing", "[once][slow]") {
-  checkAll(Fault::Framebuffer);
+// Shaders and programs that do not build; textures, renderbuffers and buffers without memory; framebuffers that are
+// refused. In one case: each kind would compile all programs again.
+TEST_CASE("faults: whatever of a frame fails, and whichever of a kind, it draws nothing", "[once][slow]") {
+  for (const Fault kind :
+       {Fault::Compile, Fault::Link, Fault::Texture, Fault::Renderbuffer, Fault::Buffer, Fault::Framebuffer})
+    checkAll(kind);
 }
 
 TEST_CASE("a context that is watched for calls and faults draws what the context itself does", "[slow]") {
