@@ -1,7 +1,9 @@
 #include "Report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace stress {
 
@@ -14,9 +16,15 @@ void Report::add(std::uint64_t seed, const Outcome& outcome, double seconds) {
     while (i < kErrorClasses.size() && !(error <= kErrorClasses[i]))
       ++i;
     ++errors_[run][i];
+    addWorst(run, std::isfinite(error) ? error : std::numeric_limits<double>::max(), seed);
   }
   for (const std::string& run : outcome.illConditioned)
     ++illConditioned_[run];
+}
+
+void Report::addWorst(const std::string& run, double error, std::uint64_t seed) {
+  auto& worst = worst_[run];
+  if (error > worst.first) worst = {error, seed};
 }
 
 void Report::addFinding(std::uint64_t seed, const Finding& finding, const std::string& simple) {
@@ -41,6 +49,8 @@ void Report::merge(const nlohmann::json& other) {
   for (const auto& [run, counts] : other.at("errors").items())
     for (std::size_t i = 0; i < counts.size(); ++i)
       errors_[run][i] += counts[i].get<std::uint64_t>();
+  for (const auto& [run, worst] : other.at("worst").items())
+    addWorst(run, worst.at(0), worst.at(1));
   for (const auto& [run, count] : other.at("ill_conditioned").items())
     illConditioned_[run] += count.get<std::uint64_t>();
   for (const auto& [name, most] : other.at("loops").items())
@@ -55,6 +65,7 @@ nlohmann::json Report::json() const {
           {"longest_seconds", longest_},
           {"longest_seed", longestSeed_},
           {"errors", errors_},
+          {"worst", worst_},
           {"ill_conditioned", illConditioned_},
           {"loops", loops_},
           {"findings", findings_}};
@@ -66,8 +77,8 @@ std::string Report::text() const {
                   frames_, pictures_, findings_.size(), longestSeed_, longest_);
   for (const double end : kErrorClasses)
     text += fmt::format(" <= {:g} |", end);
-  text += " more | ill-conditioned |\n|---|";
-  for (std::size_t i = 0; i < kErrorClasses.size() + 2; ++i)
+  text += " more | ill-conditioned | worst, of seed |\n|---|";
+  for (std::size_t i = 0; i < kErrorClasses.size() + 3; ++i)
     text += "---|";
   text += '\n';
   for (const auto& [run, counts] : errors_) {
@@ -75,7 +86,9 @@ std::string Report::text() const {
     for (const std::uint64_t count : counts)
       text += fmt::format(" {} |", count);
     const auto ill = illConditioned_.find(run);
-    text += fmt::format(" {} |\n", ill == illConditioned_.end() ? 0 : ill->second);
+    text += fmt::format(" {} |", ill == illConditioned_.end() ? 0 : ill->second);
+    const auto worst = worst_.find(run);
+    text += worst == worst_.end() ? " |\n" : fmt::format(" {:.2g}, {} |\n", worst->second.first, worst->second.second);
   }
   if (!loops_.empty()) text += "\n| loop, or all loops of a pass | most turns | seed |\n|---|---|---|\n";
   for (const auto& [name, most] : loops_)

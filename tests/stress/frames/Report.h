@@ -24,10 +24,13 @@ public:
   std::size_t findings() const { return findings_.size(); }
 
 private:
+  void addWorst(const std::string& run, double error, std::uint64_t seed);
+
   std::uint64_t frames_ = 0, pictures_ = 0;
   double longest_ = 0; ///< seconds of a frame
   std::uint64_t longestSeed_ = 0;
   std::map<std::string, std::array<std::uint64_t, kErrorClasses.size() + 1>> errors_; ///< by run
+  std::map<std::string, std::pair<double, std::uint64_t>> worst_; ///< error by run, and of which seed
   std::map<std::string, std::uint64_t> illConditioned_;
   std::map<std::string, std::pair<std::uint32_t, std::uint64_t>> loops_; ///< most turns, and of which seed
   std::vector<nlohmann::json> findings_;
