@@ -44,7 +44,7 @@ TEST_CASE("no error, a black reference and what is not finite have their numbers
   CHECK(std::isinf(both.errors().p99));
 }
 
-TEST_CASE("the error at rest is that of the whole picture against exact") {
+TEST_CASE("the error at rest is that of the whole picture against exact", "[pictures]") {
   tests::ViewerRig rig;
   rig.load("projector");
   settings::State state = rig.viewer.state();

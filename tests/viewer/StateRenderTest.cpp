@@ -118,7 +118,7 @@ TEST_CASE("a state's picture is the same by --state, by its command, and in the 
 
 TEST_CASE("so it is with a medium and lights of one's own") { checkOnePicture(editedState()); }
 
-TEST_CASE("so it is by another technique, from another place, in several cascades") {
+TEST_CASE("so it is by another technique, from another place, in several cascades", "[pictures]") {
   settings::State state = stateOf("nave");
   state.lookAt = settings::LookAt{{0.5, 2, 9}, {0.1, 3, -4}, 71};
   state.settings.technique = tyndall::Technique::Tree;
@@ -127,7 +127,7 @@ TEST_CASE("so it is by another technique, from another place, in several cascade
   checkOnePicture(state);
 }
 
-TEST_CASE("whatever was done before, the picture at rest is that of the state which is saved then") {
+TEST_CASE("whatever was done before, the picture at rest is that of the state which is saved then", "[pictures]") {
   const tests::TemporaryFolder folder;
   const std::filesystem::path file = folder / "state.json";
   for (const char* scene : {"stage", "nave"}) {

@@ -237,7 +237,7 @@ TEST_CASE("what would take all of a machine's memory is refused, and the picture
   CHECK(rig.viewer.first().width() > 0);
 }
 
-TEST_CASE("smoke's density and the width of strands are a person's to set") {
+TEST_CASE("smoke's density and the width of strands are a person's to set", "[pictures]") {
   for (const char* name : {"censer", "hair"}) {
     tests::ViewerRig rig;
     rig.load(name);
@@ -316,7 +316,7 @@ TEST_CASE("a camera that the scene does not have is a message, and the view can 
   CHECK(rig.error().empty());
 }
 
-TEST_CASE("smoke's shadows outlive another size of the shadow maps") {
+TEST_CASE("smoke's shadows outlive another size of the shadow maps", "[pictures]") {
   tests::ViewerRig rig;
   rig.load("censer");
   const auto beFast = [&] { // as a GPU is: what moves is drawn at full quality
@@ -380,7 +380,7 @@ TEST_CASE("samples of a pixel may be any number that is offered") {
   }
 }
 
-TEST_CASE("any setting may be changed at any time") {
+TEST_CASE("any setting may be changed at any time", "[pictures]") {
   tests::ViewerRig rig(64, 36);
   rig.load("projector");
   std::mt19937 random(11);

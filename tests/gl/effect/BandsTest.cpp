@@ -65,7 +65,7 @@ constexpr double kSquares = 1.5e-4;
 
 } // namespace
 
-TEST_CASE("draws in bands give the picture of whole draws, bit for bit") {
+TEST_CASE("draws in bands give the picture of whole draws, bit for bit", "[once]") {
   FaultyContext context;
   for (const FrameCase& item : tests::frameCases())
     if (tests::canDraw(item)) CHECK(checkSame(context, item, 32, 24, kSquares) > 10);

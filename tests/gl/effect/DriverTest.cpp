@@ -92,7 +92,7 @@ TEST_CASE("pixels that leave a loop before their neighbours leave those alone", 
   }
 }
 
-TEST_CASE("nothing is read that no pass has written") {
+TEST_CASE("nothing is read that no pass has written", "[once]") {
   Poisoned poisoned;
   REQUIRE(poisoned.created.effect);
   for (const Case& item : kCases)
@@ -110,7 +110,7 @@ TEST_CASE("nothing is read that no pass has written") {
     }
 }
 
-TEST_CASE("nothing is kept that no pass has written") {
+TEST_CASE("nothing is kept that no pass has written", "[once]") {
   Poisoned poisoned;
   REQUIRE(poisoned.created.effect);
   for (const Changes changes : {Changes::Detect, Changes::Objects})

@@ -118,7 +118,7 @@ TEST_CASE("an engine's pending error stays: prepare, compileAll, and frames that
   checkStays("prepare, refused", [&] { CHECK(effect->prepare(broken).status.code == StatusCode::InvalidFrame); });
 }
 
-TEST_CASE("an engine's pending error hides no allocation that fails") {
+TEST_CASE("an engine's pending error hides no allocation that fails", "[once]") {
   FaultyContext context;
   for (const char* name :
        {"epipolar", "epipolar, two lights", "tree, two lights, all targets", "exact, lamp, all targets", "low rank",

@@ -201,7 +201,7 @@ void checkComposites(Effect& blending, Effect& copying, tests::ShaftRig& rig, GL
 
 } // namespace
 
-TEST_CASE("tuning: a copy that is blended in the shader composites as dual-source blending does") {
+TEST_CASE("tuning: a copy that is blended in the shader composites as dual-source blending does", "[once]") {
   using tests::reuse::point, tests::reuse::spot, tests::reuse::sun;
   const std::unique_ptr<Effect> blending = effectWith(kDualSource), copying = effectWith(kCopy);
   for (const Technique technique : {Technique::Exact, Technique::Tree, Technique::Epipolar, Technique::LowRank})
