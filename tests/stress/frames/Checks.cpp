@@ -156,8 +156,16 @@ private:
   }
 
   /// What is left of the lights behind the 40 optical depths after which the effect adds nothing, and some more.
-  double invisible() const {
-    constexpr double kLeft = 1e-16;
+  double invisible() const { return 1e-16 * brightest(); }
+
+  /// Epipolar textures hold coloured light in half floats of what it would be in clear air: their last steps are no
+  /// share of less.
+  double storable(const Settings& settings) const {
+    return settings.technique == Technique::Epipolar ? 0x1p-20 * brightest() : 0;
+  }
+
+  /// Light that a lamp would scatter in clear air; a sun's own.
+  double brightest() const {
     const glm::dvec3 eye = EyeFrame(made_.frame.camera).position;
     double scattering = 0, brightest = 0;
     for (const Constituent& constituent : made_.frame.medium.constituents)
@@ -170,14 +178,14 @@ private:
       }
       brightest = std::max(brightest, radiance);
     }
-    return kLeft * brightest;
+    return brightest;
   }
 
   /// What errors are shares of: the mean, or a thousandth of what it is without shadows if those leave less.
-  double scaleOf(const std::vector<double>& values) const {
+  double scaleOf(const std::vector<double>& values, const Settings& settings) const {
     constexpr double kShadowed = 1e-3;
     return std::max({meanOfFinite(values), kShadowed * meanOfFinite(withoutGlare(unshadowed_.rgb, comparable_)),
-                     comparable_.least});
+                     comparable_.least, storable(settings)});
   }
 
   /// No light comes from shadows: nowhere more than without them, in the pixel or in those that it is interpolated
@@ -231,7 +239,7 @@ private:
     const std::vector<double> truth = truthOf(rig_.scene(), pixels, comparable_);
     Range range;
     range.include(truth);
-    const double scale = scaleOf(truth);
+    const double scale = scaleOf(truth, exactSettings_);
     double error = errorBeyond(values, range, scale);
     outcome_.errors["exact"] = error;
     if (error <= kTolerance) return;
@@ -265,7 +273,7 @@ private:
     Range range;
     const std::vector<double> exact = withoutGlare(exact_.inscatter.rgb, comparable_);
     range.include(exact);
-    const double scale = scaleOf(exact);
+    const double scale = scaleOf(exact, one.settings);
     const double error = errorBeyond(picture.inscatter.rgb, range, scale);
     outcome_.errors[one.name] = error;
     if (error <= kTolerance || !std::isfinite(error)) return; // what is not finite has been said
