@@ -270,6 +270,10 @@ private:
     const bool isTree = one.settings.technique == Technique::Tree;
     checkBound(one.name, picture.inscatter, isTree ? 0 : one.isHeld ? 2 : 16, isTree ? 2e-3 : 0.05);
     if (one.name == "any settings") return;
+    if (comparable_.isLampAtEye) { // its light has no end
+      outcome_.illConditioned.push_back(one.name);
+      return;
+    }
     Range range;
     const std::vector<double> exact = withoutGlare(exact_.inscatter.rgb, comparable_);
     range.include(exact);
