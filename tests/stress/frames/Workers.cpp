@@ -47,6 +47,16 @@ void send(int pipe, const nlohmann::json& message) {
   }
 }
 
+/// No pass may come near the turns after which llvmpipe ends an invocation's loops, whatever they have left to do.
+void addLoops(Report& report, std::uint64_t seed, const Plan& plan, const std::map<std::string, std::uint32_t>& turns) {
+  constexpr std::uint32_t kEnd = 65535;
+  report.addLoops(seed, turns);
+  for (const auto& [name, most] : turns)
+    if (most >= kEnd)
+      report.addFinding(seed, {"loops: " + name, static_cast<double>(most), static_cast<double>(kEnd), ""},
+                        plan.simple.text());
+}
+
 /// The seeds first, first + step, ... before `end`.
 [[noreturn]] void work(const Plan& plan, std::uint64_t first, std::uint64_t end, std::uint64_t step, double seconds,
                        int pipe) {
@@ -64,7 +74,7 @@ void send(int pipe, const nlohmann::json& message) {
     Report report;
     const Outcome outcome = check(makeCase(seed, plan.simple), *effect, plan.runs, plan.pictures);
     report.add(seed, outcome, secondsSince(begin));
-    if (loops) report.addLoops(seed, loops->take());
+    if (loops) addLoops(report, seed, plan, loops->take());
     for (const Finding& finding : outcome.findings) {
       AxisSet simple = plan.simple;
       if (plan.shrink && ++shrunkOf[finding.check] <= 3)
