@@ -119,15 +119,31 @@ struct Row {
   float texels = 0;
 };
 
+// A direction in a view's map (homogeneous) of the line that an orthographic camera's slice follows there: of its rays
+// or, where they hardly move, along or against a sun, from one ray to another, which begins at `other`. 1e-7: farther
+// than doubles round, and less than any texel shows.
+dvec4 rowDirection(const dvec4& begin, const dvec4& direction, const dvec4& other) {
+  const dvec4 end = begin + 4.0 * direction; // as far as the depth range is long
+  if (!(begin.w > 0 && end.w > 0 && other.w > 0)) return direction;
+  const dvec2 at = dvec2(begin) / begin.w, moved = dvec2(end) / end.w - at, between = dvec2(other) / other.w - at;
+  return glm::length(moved) > 1e-7 * glm::length(between) ? direction : dvec4(between, 0, 0);
+}
+
+// A ray of a slice, homogeneous: where it begins, and its direction; and where one at the slice's other end begins.
+struct SliceRays {
+  dvec4 begin{0}, direction{0}, otherBegin{0};
+};
+
 // The line that all rays of a slice follow in a view's map: through the texel positions of one ray's begin and
 // direction, clipped to the map, oriented as the rays run. With oneBegin they all begin there.
-Row rowOf(const glm::dmat4& texelFromCamera, const dvec4& begin, const dvec4& direction, bool oneBegin,
-          const dvec2& size, int step) {
-  const dvec4 a = texelFromCamera * begin, b = texelFromCamera * direction;
+Row rowOf(const glm::dmat4& texelFromCamera, const SliceRays& rays, bool oneBegin, const dvec2& size, int step) {
+  const dvec4 a = texelFromCamera * rays.begin;
+  dvec4 b = texelFromCamera * rays.direction;
+  if (!oneBegin) b = rowDirection(a, b, texelFromCamera * rays.otherBegin);
   dvec2 along(b.x * a.w - a.x * b.w, b.y * a.w - a.y * b.w); // the sign of d(x / w), d(y / w)
   const double greater = std::max(std::abs(along.x), std::abs(along.y));
   Row row;
-  if (!(greater > 0)) { // the ray runs along the light: one texel
+  if (!(greater > 0)) { // the only ray runs along the light: one texel
     const dvec2 p = a.w != 0 ? dvec2(a) / a.w : dvec2(0);
     row.originStep = glm::vec4(glm::floor(p), 1, 0);
     row.texels = 1;
@@ -228,11 +244,13 @@ SliceTable makeSlices(const Frame& frame, const Light& light, int shadowWidth, i
     const dvec2 perPixel = (exit - entry) * ((wanted - 1) / std::max(length * length, 1e-12));
     table.texels[count + i] = glm::vec4(perPixel, -glm::dot(perPixel, entry), wanted - 1);
     table.regularSamples += static_cast<std::uint64_t>(wanted + 15) / 16;
-    dvec4 begin, direction;
-    rays.at(exit, begin, direction);
+    SliceRays ends;
+    dvec4 otherDirection;
+    rays.at(entry, ends.otherBegin, otherDirection);
+    rays.at(exit, ends.begin, ends.direction);
     for (std::size_t v = 0; v < views; ++v) {
-      const Row row = rowOf(glm::dmat4(lightMatrices.shadowViews[v].texelFromCamera), begin, direction,
-                            !rays.orthographic, dvec2(lightMatrices.shadowViews[v].size), frame.settings.rowStep);
+      const Row row = rowOf(glm::dmat4(lightMatrices.shadowViews[v].texelFromCamera), ends, !rays.orthographic,
+                            dvec2(lightMatrices.shadowViews[v].size), frame.settings.rowStep);
       table.texels[(2 + 2 * v) * count + i] = row.originStep;
       table.texels[(3 + 2 * v) * count + i] = glm::vec4(row.texels, 0, 0, 0);
       table.longestRow = std::max(table.longestRow, static_cast<int>(row.texels));

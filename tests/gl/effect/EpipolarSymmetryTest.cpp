@@ -112,6 +112,24 @@ TEST_CASE("epipolar gives the same picture with a reversed shadow map") {
   }
 }
 
+// Each ray is a point in the map, or nearly so: slices follow no ray there, but the picture.
+TEST_CASE("epipolar comes close to exact where a sun shines along or against an orthographic view") {
+  for (const double aslant : {0.0, 1e-17, 1e-12, 1e-8, 1e-5, 1e-3})
+    for (const double along : {-1, 1}) {
+      CAPTURE(aslant, along);
+      tests::ShaftRig rig;
+      rig.look(tests::lookAt({0, 3, 0}, {0, 3, -1}));
+      tests::DepthConvention convention = rig.scene.convention();
+      convention.infinite = false;
+      convention.orthographic = true;
+      rig.setConvention(convention);
+      Light light = tests::shaftLight(LightKind::Directional);
+      light.direction = {aslant, 0.3 * aslant, along};
+      rig.addLight(light);
+      checkBothTechniques(rig);
+    }
+}
+
 TEST_CASE("epipolar comes close to exact through an orthographic camera, standard or reversed", "[sweep]") {
   for (const bool reversed : {false, true})
     for (const LightKind kind : kKinds)

@@ -282,7 +282,7 @@ private:
     outcome_.errors[one.name] = error;
     if (error <= kTolerance || !std::isfinite(error)) return; // what is not finite has been said
     double left = error;
-    for (const int count : {9, 100}) {
+    for (const int count : {9, 100, 1000}) {
       if (left <= kTolerance || (count > 9 && !one.isHeld)) break;
       const Range displaced = displacedExact(rig_, exactSettings_, one.settings.rowStep, comparable_, count);
       outcome_.pictures += count;
