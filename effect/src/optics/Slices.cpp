@@ -119,14 +119,15 @@ struct Row {
   float texels = 0;
 };
 
-// A direction in a view's map (homogeneous) of the line that an orthographic camera's slice follows there: of its rays
-// or, where they hardly move, along or against a sun, from one ray to another, which begins at `other`. 1e-7: farther
-// than doubles round, and less than any texel shows.
+// A direction in a view's map (homogeneous) of the line that an orthographic camera's slice follows there: of a ray or,
+// if that is farther, from where it begins to where another does, which tells more. Along or against a sun rays do not
+// move at all.
 dvec4 rowDirection(const dvec4& begin, const dvec4& direction, const dvec4& other) {
   const dvec4 end = begin + 4.0 * direction; // as far as the depth range is long
   if (!(begin.w > 0 && end.w > 0 && other.w > 0)) return direction;
   const dvec2 at = dvec2(begin) / begin.w, moved = dvec2(end) / end.w - at, between = dvec2(other) / other.w - at;
-  return glm::length(moved) > 1e-7 * glm::length(between) ? direction : dvec4(between, 0, 0);
+  if (glm::dot(moved, moved) >= glm::dot(between, between)) return direction;
+  return dvec4(glm::dot(moved, between) < 0 ? -between : between, 0, 0);
 }
 
 // A ray of a slice, homogeneous: where it begins, and its direction; and where one at the slice's other end begins.
