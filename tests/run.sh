@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs packages, builds with g++ and runs the tests that fit into a quarter of an hour on two cores, packages
-# included; says at the end what it left out. With --all, which is for build servers and takes under an hour: every kind
+# included; says at the end what it left out. With --all, which is for build servers and takes over an hour: every kind
 # of OpenGL context, the long sweeps, the build by clang++ under AddressSanitizer and UndefinedBehaviorSanitizer, the
 # Khronos compiler of GLSL and the lint. Exit status 0 only if all passed.
 set -eu
