@@ -42,10 +42,11 @@ Airlight airlightOf(Ray ray) {
 
 void litRange(Airlight light, inout float s0, inout float s1) {}
 
-// A length from s on over which the airlight changes by about a tenth.
+// A length from s on over which the airlight changes by about a tenth in any channel that is left: 6e-6 of what is next to the eye.
 float steadyLength(Airlight light, float s) {
-  float sigma = max(extinction.r, max(extinction.g, extinction.b));
-  return 0.1 / max(sigma * (1.0 + abs(light.pathSlope)), 1e-30);
+  const float kFew = 12.0; // optical depths
+  vec3 left = mix(extinction, vec3(0.0), greaterThan(extinction * (s * (1.0 + min(light.pathSlope, 0.0))), vec3(kFew)));
+  return 0.1 / max(max(left.r, max(left.g, left.b)) * (1.0 + abs(light.pathSlope)), 1e-30);
 }
 
 // The longest span over which a line stands for the airlight: of an optical depth of at most `most`.

@@ -314,6 +314,24 @@ TEST_CASE("filtered shadows of a lamp in a coarse map are exact in thick media, 
     }
 }
 
+// One channel is gone within a texel's first hundredth, another sees all of it.
+TEST_CASE("filtered shadows of a sun in a coarse map are exact in every channel of a coloured medium") {
+  for (const float scattering : {0.5F, 50.0F, 5000.0F}) {
+    CAPTURE(scattering);
+    tests::SceneRig rig;
+    Light& light = rig.addLight(LightKind::Directional);
+    rig.frame.medium.constituents = {{{scattering, 0.3F, 0.01F}, Phase::HenyeyGreenstein, 0.6F}};
+    rig.frame.settings.shadowFilter = ShadowFilter::Bilinear;
+    reference::ShadowImage map;
+    map.width = map.height = 3;
+    map.layers = static_cast<int>(light.shadow.views.size());
+    map.depth = tests::casterDepths(tests::Casters::Blocks, LightKind::Directional, 3, map.layers);
+    rig.setShadow(0, map);
+    rig.render();
+    checkAgainstReference(rig, 5e-3);
+  }
+}
+
 TEST_CASE("a spot along an orthographic camera's rays lights nothing outside its cone") {
   for (const double turn : {0.0, 1e-9, 1e-7, 3e-4})
     for (const double side : {-1.0, 1.0}) {
