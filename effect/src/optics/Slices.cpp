@@ -130,7 +130,8 @@ dvec4 rowDirection(const dvec4& begin, const dvec4& direction, const dvec4& othe
   return dvec4(glm::dot(moved, between) < 0 ? -between : between, 0, 0);
 }
 
-// A ray of a slice, homogeneous: where it begins, and its direction; and where one at the slice's other end begins.
+// A ray of a slice, homogeneous: where it begins, and its direction; of an orthographic camera, also where the ray at
+// the slice's other end begins.
 struct SliceRays {
   dvec4 begin{0}, direction{0}, otherBegin{0};
 };
@@ -246,9 +247,8 @@ SliceTable makeSlices(const Frame& frame, const Light& light, int shadowWidth, i
     table.texels[count + i] = glm::vec4(perPixel, -glm::dot(perPixel, entry), wanted - 1);
     table.regularSamples += static_cast<std::uint64_t>(wanted + 15) / 16;
     SliceRays ends;
-    dvec4 otherDirection;
-    rays.at(entry, ends.otherBegin, otherDirection);
     rays.at(exit, ends.begin, ends.direction);
+    if (dvec4 unused; rays.orthographic) rays.at(entry, ends.otherBegin, unused);
     for (std::size_t v = 0; v < views; ++v) {
       const Row row = rowOf(glm::dmat4(lightMatrices.shadowViews[v].texelFromCamera), ends, !rays.orthographic,
                             dvec2(lightMatrices.shadowViews[v].size), frame.settings.rowStep);

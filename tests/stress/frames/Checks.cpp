@@ -82,10 +82,11 @@ public:
   /// Of the picture of another frame.
   void checkRelation(Effect& effect, Outcome& outcome) {
     const std::optional<Case> other = related(made_, made_.relation);
-    if (!other || comparable_.isLampAtEye) return;
+    if (!other) return;
     CaseRig rig(*other, effect);
     const std::string name = std::string(nameOf(made_.relation));
     for (const Technique technique : {Technique::Exact, Technique::Epipolar}) {
+      if (technique == Technique::Epipolar && comparable_.isLampAtEye) continue; // its light has no end
       const Settings settings =
           technique == Technique::Exact ? exactSettings_ : finest(technique, exactSettings_.shadowFilter);
       const reference::Image before = rig_.render(settings).inscatter;
@@ -167,10 +168,20 @@ private:
   /// What is left of the lights behind the 40 optical depths after which the effect adds nothing, and some more.
   double invisible() const { return 1e-16 * brightest(); }
 
-  /// Epipolar textures hold coloured light in half floats of what it would be in clear air: their last steps are no
-  /// share of less.
+  /// Epipolar textures hold coloured light in half floats of what it would be in clear air (setStored of
+  /// optics/Slices.cpp): their last steps are no share of less.
   double storable(const Settings& settings) const {
-    return settings.technique == Technique::Epipolar ? 0x1p-20 * brightest() : 0;
+    return settings.technique == Technique::Epipolar && isColoured() ? 0x1p-26 * brightest() : 0;
+  }
+
+  bool isColoured() const {
+    const auto isGrey = [](const Rgb& rgb) { return rgb[0] == rgb[1] && rgb[1] == rgb[2]; };
+    const std::vector<Constituent>& constituents = made_.frame.medium.constituents;
+    const bool isTinted = std::any_of(made_.maps.begin(), made_.maps.end(),
+                                      [](const LightMaps& maps) { return !maps.image.glassDepth.empty(); });
+    return isTinted || !isGrey(made_.frame.medium.absorption) ||
+           !std::all_of(constituents.begin(), constituents.end(),
+                        [&](const Constituent& constituent) { return isGrey(constituent.scattering); });
   }
 
   /// Light that a lamp would scatter in clear air; a sun's own.

@@ -17,10 +17,12 @@ namespace {
 
 using Trouble = std::optional<std::string>;
 
-constexpr double kRounding = 1e-5; // of what reuse promises: as tests/gl/effect/ReuseRig.h
-constexpr double kOtherJitter =
-    0.1;                        // root mean square that another jitter's depth may come to in small pictures: Reuse,
-constexpr int kFewPixels = 400; // but for those of so few that it promises nothing of them
+// Of what reuse promises: as tests/gl/effect/ReuseRig.h.
+constexpr double kRounding = 1e-5;
+// Root mean square that another jitter's depth may come to in small pictures (Reuse), but for those of so few pixels
+// that it promises nothing of them.
+constexpr double kOtherJitter = 0.1;
+constexpr int kFewPixels = 400;
 
 // A frame that breaks a rule.
 Frame spoilt(const Frame& frame, int how) {
