@@ -42,11 +42,11 @@ Airlight airlightOf(Ray ray) {
 
 void litRange(Airlight light, inout float s0, inout float s1) {}
 
-// A length from s on over which the airlight changes by about a tenth in any channel that is left: 6e-6 of what is next to the eye.
-float steadyLength(Airlight light, float s) {
+// A length from s on over which the airlight changes by about a twentieth in any channel of which 6e-6 of what it is at s0 are left.
+float steadyLength(Airlight light, float s0, float s) {
   const float kFew = 12.0; // optical depths
-  vec3 left = mix(extinction, vec3(0.0), greaterThan(extinction * (s * (1.0 + min(light.pathSlope, 0.0))), vec3(kFew)));
-  return 0.1 / max(max(left.r, max(left.g, left.b)) * (1.0 + abs(light.pathSlope)), 1e-30);
+  vec3 left = mix(extinction, vec3(0.0), greaterThan(extinction * ((s - s0) * (1.0 + min(light.pathSlope, 0.0))), vec3(kFew)));
+  return 0.05 / max(max(left.r, max(left.g, left.b)) * (1.0 + abs(light.pathSlope)), 1e-30);
 }
 
 // The longest span over which a line stands for the airlight: of an optical depth of at most `most`.
@@ -90,16 +90,21 @@ struct Airlight {
 #endif
 };
 
-// A length from s on over which the airlight changes by about a tenth in any channel that is left, but for a phase function's peak:
-// in P = r + t (below), for what is left falls by exp(-extinction P), and directions and 1 / r^2 change as P does relative to itself.
-float steadyLength(Airlight light, float s) {
-  // Optical depths of which floats hold no light, and those that leave 6e-6 of what is next to the eye.
+// A length from s on over which the airlight changes by about a twentieth in any channel of which 6e-6 of what it is at s0 are left, but
+// for a phase function's peak: in P = r + t (below), for what is left falls by exp(-extinction P), and directions and 1 / r^2 change
+// as P does relative to itself. Along a chord of a soft cone it is a bump.
+float steadyLength(Airlight light, float s0, float s) {
+  // Optical depths of which floats hold no light, and those that leave 6e-6.
   const float kNone = 80.0, kFew = 12.0;
   float t = s - light.foot, r = sqrt(t * t + light.height2), P = t > 0.0 ? r + t : light.height2 / (r - t);
-  float fromEye = s + r - sqrt(light.foot * light.foot + light.height2), passed = max(fromEye, kFew / kNone * (s + r));
+  float t0 = s0 - light.foot, passed = max(s + r - (s0 + sqrt(t0 * t0 + light.height2)), kFew / kNone * (s + r));
   vec3 left = mix(extinction, vec3(0.0), greaterThan(extinction * passed, vec3(kFew)));
-  float next = min(1.1 * P, P + 0.1 / max(max(left.r, max(left.g, left.b)), 1e-30));
-  return light.foot + 0.5 * (next - light.height2 / next) - s;
+  float next = min(1.05 * P, P + 0.05 / max(max(left.r, max(left.g, left.b)), 1e-30));
+  float len = light.foot + 0.5 * (next - light.height2 / next) - s;
+#if LIGHT_KIND == 2
+  if (falloffScale != 0.0) len = min(len, 0.01 * light.chord);
+#endif
+  return len;
 }
 
 // The longest span over which a line stands for the airlight: `most` bounds its optical depth and its length by the distance

@@ -286,7 +286,7 @@ void addTexels(Airlight light, ViewSegment segment, inout Light sum) {
   // Bounds the loops whatever the arithmetic does: pieces of cells, changes between them, and one look at nodes every few cells.
   int pieces = (kPiecesPerCell + 2) * walk.left + 8;
 #if FILTER_BILINEAR
-  int cuts = LIGHT_KIND == 0 ? 600 : 400; // that steadiness may ask for, tens of optical depths: as many more pieces
+  int cuts = LIGHT_KIND == 0 ? 1000 : 800; // that steadiness may ask for, tens of optical depths: as many more pieces
   pieces += cuts;
 #endif
   Visibility current = Visibility(0.0);
@@ -315,7 +315,7 @@ void addTexels(Airlight light, ViewSegment segment, inout Light sum) {
       float uCell = cellEnd(line, walk), uEnd = uCell;
 #if FILTER_BILINEAR
       // A mean visibility stands for a piece only where the airlight hardly changes.
-      float s = distanceAt(segment, walk.u), uSteady = parameterAt(segment, s + steadyLength(light, s));
+      float s = distanceAt(segment, walk.u), uSteady = parameterAt(segment, s + steadyLength(light, segment.s0, s));
       if (cuts > 0 && uSteady > walk.u && uSteady < uCell) {
         uEnd = uSteady;
         --cuts;

@@ -128,10 +128,11 @@ void Airlight::prepareDirectional(const tyndall::Light& light) {
   if (boundarySlope_ != 0) breaks_.push_back(-boundaryOffset_ / boundarySlope_);
 }
 
+double Airlight::sunSlope(double s) const { return boundaryOffset_ + boundarySlope_ * s > 0 ? 1 + boundarySlope_ : 1; }
+
 Rgb Airlight::directionalPiece(double s0, double s1) const {
-  const bool inside = boundaryOffset_ + boundarySlope_ * (0.5 * (s0 + s1)) > 0;
-  const double c = inside ? boundaryOffset_ : 0;
-  const double q = inside ? 1 + boundarySlope_ : 1;
+  const double middle = 0.5 * (s0 + s1), q = sunSlope(middle);
+  const double c = boundaryOffset_ + boundarySlope_ * middle > 0 ? boundaryOffset_ : 0;
   if (grey_) return source_ * exponentialSpan(extinction_.r, c, q, s0, s1);
   Rgb result;
   for (int i = 0; i < 3; ++i)
@@ -238,23 +239,26 @@ Airlight::Nodes Airlight::nodesFor(double variation) {
   return {5, kGauss5X, kGauss5W};
 }
 
-Rgb Airlight::adaptive(const Panel& panel, const Rgb& total, int depth) const {
+void Airlight::addAdaptive(const std::function<Rgb(double)>& f, double a, double b, Rgb& sum, int depth) {
+  const double middle = 0.5 * (a + b), half = 0.5 * (b - a);
   Rgb kronrod{0}, gauss{0};
   for (const KronrodNode& node : kKronrod15) {
-    Rgb value = pointNode(panel, 0.5 + 0.5 * node.x).value;
-    if (node.x > 0) value += pointNode(panel, 0.5 - 0.5 * node.x).value;
+    Rgb value = f(middle + half * node.x);
+    if (node.x > 0) value += f(middle - half * node.x);
     kronrod += node.kronrod * value;
     gauss += node.gauss * value;
   }
-  kronrod *= 0.5 * panel.width;
-  gauss *= 0.5 * panel.width;
+  kronrod *= half;
+  gauss *= half;
   const Rgb error = glm::abs(kronrod - gauss);
   constexpr double kNothing = 1e-290; // under this a relative error is that of numbers that lose their bits
-  const Rgb allowed = glm::max(1e-10 * glm::max(kronrod, total), Rgb(kNothing));
-  if (depth == 0 || glm::all(glm::lessThanEqual(error, allowed))) return kronrod;
-  const double half = 0.5 * panel.width;
-  return adaptive({panel.side, panel.e0, half}, total, depth - 1) +
-         adaptive({panel.side, panel.e0 * std::exp(half), half}, total, depth - 1);
+  const Rgb allowed = glm::max(1e-10 * glm::max(kronrod, sum), Rgb(kNothing));
+  if (depth == 0 || glm::all(glm::lessThanEqual(error, allowed))) {
+    sum += kronrod;
+    return;
+  }
+  addAdaptive(f, a, middle, sum, depth - 1);
+  addAdaptive(f, middle, b, sum, depth - 1);
 }
 
 Rgb Airlight::pointPiece(double s0, double s1) const {
@@ -274,13 +278,12 @@ Rgb Airlight::pointPiece(double s0, double s1) const {
     return sum * (0.5 * whole.width);
   }
   constexpr double kWidestPanel = 2;
-  constexpr int kDeepest = 40;
   const int count = static_cast<int>(std::ceil(whole.width / kWidestPanel));
-  const double width = whole.width / count;
   Rgb total{0};
   for (int i = 0; i < count; ++i)
-    total += adaptive({whole.side, whole.e0 * std::exp(i * width), width}, total, kDeepest);
-  return total;
+    addAdaptive([&](double x) { return pointNode(whole, x).value; }, static_cast<double>(i) / count,
+                static_cast<double>(i + 1) / count, total, kDeepest);
+  return total * whole.width;
 }
 
 Rgb Airlight::span(double s0, double s1) const {

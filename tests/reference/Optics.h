@@ -60,6 +60,7 @@ private:
     double s;
     Rgb value; ///< integrand times ds/dw
   };
+  static constexpr int kDeepest = 40; ///< halvings
   struct Nodes {
     int count;
     const double* abscissas; ///< on [-1, 1]
@@ -79,8 +80,13 @@ private:
   Panel panel(double s0, double s1) const;
   Node pointNode(const Panel& panel, double x) const;
   double panelVariation(const Panel& panel) const;
-  Rgb adaptive(const Panel& panel, const Rgb& total, int depth) const;
+  /// Adds the integral of f over [a, b], to a relative 1e-10 of the sum, by Gauss-Kronrod and halving.
+  static void addAdaptive(const std::function<Rgb(double)>& f, double a, double b, Rgb& sum, int depth);
   static Nodes nodesFor(double variation);
+  /// Directional: how the light's path to the eye, from where it entered the medium, grows with s.
+  double sunSlope(double s) const;
+  /// As wide a stretch, of a panel of width 1 that is brightest at 0, as is not all dark to the nodes of a quadrature.
+  double widest(const Panel& panel, double from) const { return isPoint_ ? std::min(from, 2 / panel.width) : from; }
 
   /// Calls visit(a, b) for the stretches of [s0, s1] between range, cone, foot and boundary plane.
   template <class Visit>
@@ -97,19 +103,27 @@ private:
 
   template <class Weight>
   Rgb weightedPiece(double a, double b, const Weight& weight) const {
+    constexpr double kEven = 16; // more is not even: most of the light lies next to one end
     const Panel whole = isPoint_ ? panel(a, b) : Panel{1, a, b - a};
     const double variation =
         isPoint_ ? panelVariation(whole) : maxExtinction_ * (1 + std::abs(boundarySlope_)) * (b - a);
-    const int count = static_cast<int>(std::min(4096.0, std::ceil(4 * variation + 1e-9)));
+    const auto at = [&](double x) {
+      const Node node = isPoint_ ? pointNode(whole, x) : directionalNode(a, b - a, x);
+      return node.value * weight(node.s);
+    };
+    if (variation > kEven) {
+      const bool isBrightAtEnd = !isPoint_ && sunSlope(0.5 * (a + b)) < 0;
+      Rgb sum{0};
+      for (double x = 0, next = kEven / variation; x < 1; x = next, next = std::min(next + widest(whole, next), 1.0))
+        addAdaptive([&](double y) { return at(isBrightAtEnd ? 1 - y : y); }, x, next, sum, kDeepest);
+      return sum * whole.width;
+    }
+    const int count = static_cast<int>(std::ceil(4 * variation + 1e-9));
     const Nodes nodes = nodesFor(variation / count);
     Rgb sum{0};
-    for (int i = 0; i < count; ++i) {
-      for (int k = 0; k < nodes.count; ++k) {
-        const double x = (i + 0.5 + 0.5 * nodes.abscissas[k]) / count;
-        const Node node = isPoint_ ? pointNode(whole, x) : directionalNode(a, b - a, x);
-        sum += nodes.weights[k] * node.value * weight(node.s);
-      }
-    }
+    for (int i = 0; i < count; ++i)
+      for (int k = 0; k < nodes.count; ++k)
+        sum += nodes.weights[k] * at((i + 0.5 + 0.5 * nodes.abscissas[k]) / count);
     return sum * (0.5 * whole.width / count);
   }
 

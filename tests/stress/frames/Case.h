@@ -38,6 +38,7 @@ struct LightMaps {
   tests::Layout layout = tests::Layout::Array;
   GLenum format = GL_DEPTH_COMPONENT32F;
   bool isCompared = false; ///< GL_COMPARE_REF_TO_TEXTURE
+  bool isOfFloats = false; ///< the views' matrices
 };
 
 struct Case {

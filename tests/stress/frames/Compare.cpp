@@ -34,6 +34,14 @@ double farthestOrigin(const Camera& camera) {
   return farthest;
 }
 
+/// How many times wider than angles a lamp's views are: what rounding of a direction comes to in their NDC.
+glm::dvec2 magnification(const Light& light) {
+  if (light.kind == LightKind::Directional || light.shadow.views.empty()) return glm::dvec2(1);
+  const glm::dmat4 rows = glm::transpose(reference::toMat4(light.shadow.views.front().clipFromWorld));
+  const double unit = glm::length(glm::dvec3(rows[3]));
+  return glm::max(glm::dvec2(glm::length(glm::dvec3(rows[0])), glm::length(glm::dvec3(rows[1]))) / unit, glm::dvec2(1));
+}
+
 } // namespace
 
 void Range::include(const std::vector<double>& values) {
@@ -68,9 +76,10 @@ double meanOfFinite(const std::vector<double>& values) {
 
 std::vector<double> withoutGlare(std::vector<double> values, const Comparable& comparable) {
   constexpr double kGlare = 1e6;
-  std::vector<double> brightest; // channel of each pixel: the others may hold next to nothing
+  std::vector<double> brightest; // channel of each pixel that holds light: the others may hold next to nothing
   for (std::size_t i = 0; i + 2 < values.size(); i += 3)
-    brightest.push_back(std::max({values[i], values[i + 1], values[i + 2]}));
+    if (const double most = std::max({values[i], values[i + 1], values[i + 2]}); most > 0) brightest.push_back(most);
+  if (brightest.empty()) return values;
   const auto usual = brightest.begin() + static_cast<std::ptrdiff_t>(3 * brightest.size() / 4);
   std::nth_element(brightest.begin(), usual, brightest.end());
   const double most = comparable.isLampAtEye ? comparable.least : kGlare * std::max(*usual, comparable.least);
@@ -104,7 +113,8 @@ Range roundedTruth(const reference::MapScene& scene, const std::vector<glm::ivec
     const float steps = kSteps * static_cast<float>(random.uniform(-1, 1));
     for (float& depth : other.depth)
       if (depth != 0 && depth != 1) depth *= 1 + steps;
-    moveViews(other.lights, [&](std::size_t) { return kRounding * any(); });
+    moveViews(other.lights,
+              [&](std::size_t light) { return kRounding * any() * glm::dvec3(magnification(other.lights[light]), 1); });
     // Where the light is, relative to the eye.
     for (Light& light : other.lights) {
       const glm::dvec3 position = reference::toVec3(light.position);

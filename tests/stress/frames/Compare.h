@@ -32,7 +32,7 @@ std::vector<double> truthOf(const reference::MapScene& scene, const std::vector<
                             const Comparable& comparable);
 
 /// What the answers come to when the inputs move by what floats hold of them: depth by two steps, points by 1e-6 of
-/// their distances to light and eye, and lamps by what doubles hold of where the eye is.
+/// their distances to light and eye, in shadow maps, too, and lamps by what doubles hold of where the eye is.
 Range roundedTruth(const reference::MapScene& scene, const std::vector<glm::ivec2>& pixels,
                    const Comparable& comparable);
 

@@ -202,6 +202,7 @@ void makeMaps(Case& made, const AxisSet& simple) {
       form.far = form.near * views.logUniform(50, 1e5);
     }
     light.shadow.clipDepth = form.clipDepth;
+    maps.isOfFloats = form.isOfFloats;
     if (light.kind == LightKind::Directional) viewSun(made, light, form, isSimple, views, forms);
     if (light.kind == LightKind::Spot) viewSpot(made, light, form, isSimple, views);
     if (light.kind == LightKind::Point) viewPoint(light, form);

@@ -126,6 +126,28 @@ TEST_CASE("directional light has its closed form", "[reference][optics]") {
   CHECK(integrate(mediumOf(Phase::Isotropic, 0, 100, 0), sun, ray, 0, 1e5).r == Approx(2 / (4 * kPi)).epsilon(1e-12));
 }
 
+TEST_CASE("weighted spans of a hundred thousand optical depths see what is next to their bright end",
+          "[reference][optics]") {
+  const Ray ray{{0, 0, 0}, {0, 0, -1}};
+  for (const float sigma : {3.0F, 1e3F, 1e5F}) {
+    auto medium = mediumOf(Phase::Isotropic, 0, 0.1F * sigma, 0.9F * sigma);
+    medium.absorption[1] = 0.01F; // a channel of which all of the span counts
+    medium.constituents[0].scattering[1] = 0.002F;
+    for (const int kind : {0, 1, 2, 3}) {
+      tyndall::Light light;
+      light.direction = {0, -1, 0.3};
+      if (kind == 1) light.boundary = {true, {0, 0, 0.5}, {0, 0, -1}}; // the far end is the bright one
+      if (kind == 2) light = pointAt({0.5 / sigma, 0, 0.1});
+      if (kind == 3) light = pointAt({0, 0.1, -3});
+      CAPTURE(sigma, kind);
+      const Rgb expected = integrate(medium, light, ray, 0, 20);
+      const Rgb weighted = Airlight(medium, light, ray).weighted(0, 20, [](double) { return Rgb(1); });
+      for (int c = 0; c < 2; ++c)
+        CHECK(weighted[c] == Approx(expected[c]).epsilon(1e-6).margin(1e-200));
+    }
+  }
+}
+
 TEST_CASE("a medium boundary attenuates directional light beyond it", "[reference][optics]") {
   tyndall::Light sun;
   sun.direction = {0, -2, 0};
