@@ -90,12 +90,13 @@ struct Airlight {
 #endif
 };
 
+const float kNone = 80.0; // optical depths of which floats hold no light
+
 // A length from s on over which the airlight changes by about a twentieth in any channel of which 6e-6 of what it is at s0 are left, but
 // for a phase function's peak: in P = r + t (below), for what is left falls by exp(-extinction P), and directions and 1 / r^2 change
 // as P does relative to itself. Along a chord of a soft cone it is a bump.
 float steadyLength(Airlight light, float s0, float s) {
-  // Optical depths of which floats hold no light, and those that leave 6e-6.
-  const float kNone = 80.0, kFew = 12.0;
+  const float kFew = 12.0; // optical depths that leave 6e-6
   float t = s - light.foot, r = sqrt(t * t + light.height2), P = t > 0.0 ? r + t : light.height2 / (r - t);
   float t0 = s0 - light.foot, passed = max(s + r - (s0 + sqrt(t0 * t0 + light.height2)), kFew / kNone * (s + r));
   vec3 left = mix(extinction, vec3(0.0), greaterThan(extinction * passed, vec3(kFew)));
@@ -263,7 +264,7 @@ void addPiece(Airlight light, float s0, float s1, Visibility visibility, inout L
   float P = P0;
   for (int i = 0; i < kMaxPanels && remaining > 0.0; ++i) {
     // The fastest channel that is not dark yet bounds the panel.
-    vec3 passed = sigma * (P - P0);
+    vec3 passed = sigma * max(P - P0, kDark / kNone * (light.foot + P));
     bvec3 dark = greaterThan(passed, vec3(kDark));
     if (all(dark)) break;
     vec3 alive = mix(sigma, vec3(0.0), dark);

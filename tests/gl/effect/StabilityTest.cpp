@@ -1,6 +1,7 @@
 // Where formulas break: singular positions, aligned directions, extreme scales, NaN and Inf in what the engine hands
 // in. Everything stays finite, keeps to its own pixel, and equals the reference where that is finite.
 #include "SceneRig.h"
+#include "gl/effect/MapLayoutRig.h"
 #include "reference/CameraRays.h"
 #include "reference/Metrics.h"
 #include "support/Catch.h"
@@ -341,6 +342,33 @@ TEST_CASE("filtered shadows of a spot in a coarse map follow its soft edge, also
         rig.render();
         checkAgainstReference(rig, 5e-3);
       }
+}
+
+// See stress.loops.dark-channel, too.
+TEST_CASE("filtered shadows of a lamp far behind the eye reach to where the clearest channel ends") {
+  for (const double behind : {3.0, 6e4}) {
+    CAPTURE(behind);
+    tests::SceneRig rig;
+    for (double& distance : rig.distances)
+      distance = kInfinity;
+    rig.setConvention(tests::DepthConvention{});
+    Light& light = rig.addLight(LightKind::Point);
+    const glm::dmat4 worldFromView = glm::inverse(reference::toMat4(rig.frame.camera.viewFromWorld));
+    light.position = toVec3(glm::dvec3(worldFromView * glm::dvec4(0.02, 0.05, behind, 1)));
+    light.shadow.views = tests::faceViews(light);
+    rig.frame.medium.constituents = {{{3e-9F, 4e-5F, 1.7e-7F}, Phase::HenyeyGreenstein, 0.6F}};
+    rig.frame.medium.absorption = {0.022F, 1e-7F, 0};
+    rig.frame.medium.farDistance = kInfinity;
+    rig.frame.settings.shadowFilter = ShadowFilter::Bilinear;
+    reference::ShadowImage map;
+    map.width = map.height = 4;
+    map.layers = 6;
+    for (int i = 0; i < 4 * 4 * 6; ++i)
+      map.depth.push_back((i ^ (i >> 2)) % 2 ? 0.0F : 1.0F);
+    rig.setShadow(0, map);
+    rig.render();
+    checkAgainstReference(rig, 5e-3);
+  }
 }
 
 // One channel is gone within a texel's first hundredth, another sees all of it.

@@ -47,9 +47,10 @@ void send(int pipe, const nlohmann::json& message) {
   }
 }
 
-/// No pass may come near the turns after which llvmpipe ends an invocation's loops, whatever they have left to do.
+/// No pass may come near the 65,535 turns after which llvmpipe ends the loops of some invocations that run together,
+/// each loop as long as the slowest of them, whatever they have left to do.
 void addLoops(Report& report, std::uint64_t seed, const Plan& plan, const std::map<std::string, std::uint32_t>& turns) {
-  constexpr std::uint32_t kEnd = 65535;
+  constexpr std::uint32_t kEnd = 32768;
   report.addLoops(seed, turns);
   for (const auto& [name, most] : turns)
     if (most >= kEnd)
