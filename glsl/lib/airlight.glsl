@@ -103,7 +103,13 @@ float steadyLength(Airlight light, float s0, float s) {
   float next = min(1.05 * P, P + 0.05 / max(max(left.r, max(left.g, left.b)), 1e-30));
   float len = light.foot + 0.5 * (next - light.height2 / next) - s;
 #if LIGHT_KIND == 2
-  if (falloffScale != 0.0) len = min(len, 0.01 * light.chord);
+  // Before, within and behind the inner cone the falloff follows the angle at the lamp, t = h tan(angle).
+  if (falloffScale != 0.0) {
+    bool entersInner = light.inner.x < light.inner.y;
+    vec2 part = !entersInner ? light.lit : s < light.inner.x ? vec2(light.lit.x, light.inner.x) : s < light.inner.y ? light.inner : vec2(light.inner.y, light.lit.y);
+    float h = sqrt(light.height2), angle = atan(part.y - light.foot, h) - atan(part.x - light.foot, h);
+    len = min(len, (entersInner ? 0.04 : 0.01) * angle * (r * r / h));
+  }
 #endif
   return len;
 }

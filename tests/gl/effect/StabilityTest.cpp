@@ -317,17 +317,17 @@ TEST_CASE("filtered shadows of a lamp in a coarse map are exact in thick media, 
 
 // The falloff rises and falls within a texel, and what is lit may lie many optical depths away.
 TEST_CASE("filtered shadows of a spot in a coarse map follow its soft edge, also behind optical depths that are dark") {
-  for (const float scattering : {0.01F, 3.0F})
-    for (const double outer : {0.03, 0.1, 0.7})
+  for (const auto& [outer, inner] : {std::pair{0.03, 0.0}, {0.1, 0.0}, {0.7, 0.0}, {0.7, 0.6}})
+    for (const float scattering : {0.01F, 3.0F})
       for (const double away : {0.0, 1e-6, 0.3}) {
-        CAPTURE(scattering, outer, away);
+        CAPTURE(scattering, outer, inner, away);
         tests::SceneRig rig;
         Light& light = rig.addLight(LightKind::Spot);
         const glm::dmat4 worldFromView = glm::inverse(reference::toMat4(rig.frame.camera.viewFromWorld));
         light.position = toVec3(glm::dvec3(worldFromView * glm::dvec4(4.9, -3, -5, 1)));
         light.direction = toVec3(glm::dvec3(worldFromView * glm::dvec4(-4.9, 3, away, 0)));
         light.outerConeAngle = static_cast<float>(outer);
-        light.innerConeAngle = 0;
+        light.innerConeAngle = static_cast<float>(inner);
         rig.frame.medium.constituents = {{{scattering, 0.3F * scattering, 0.01F}, Phase::HenyeyGreenstein, 0.6F}};
         rig.frame.settings.shadowFilter = ShadowFilter::Bilinear;
         const glm::dvec3 position = reference::toVec3(light.position), direction = reference::toVec3(light.direction);
