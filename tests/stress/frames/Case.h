@@ -39,6 +39,7 @@ struct LightMaps {
   GLenum format = GL_DEPTH_COMPONENT32F;
   bool isCompared = false; ///< GL_COMPARE_REF_TO_TEXTURE
   bool isOfFloats = false; ///< the views' matrices
+  bool isNoise = false; ///< casters that change from texel to texel: what a row of a slice meets is a matter of chance
 };
 
 struct Case {

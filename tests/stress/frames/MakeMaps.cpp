@@ -89,6 +89,11 @@ struct Casters {
   double litShare = 0.5;
   int period = 3;
 
+  /// Of a map that is so many texels wide.
+  bool isNoise(int width) const {
+    return kind == Noise || ((kind == Bars || kind == Checker) && period <= 2) || (kind == Blocks && width < 8);
+  }
+
   std::vector<double> shares(int width, int height, Random& random) const {
     std::vector<double> shares(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
                                kind == Dark ? 0.0 : 1.0);
@@ -221,6 +226,7 @@ void makeMaps(Case& made, const AxisSet& simple) {
       casters.litShare = texels.uniform();
       casters.period = texels.integer(1, 6);
     }
+    maps.isNoise = casters.isNoise(maps.image.width);
     maps.image.depth = makeTexels(form, light.kind, maps.image, casters, texels);
     if (const bool isOdd = odds.chance(0.15); isOdd && !simple.has(Axis::OddTexels)) addOddTexels(made, maps, odd);
     if (!simple.has(Axis::Layout)) makeLayout(maps, layouts);
