@@ -314,8 +314,10 @@ void addTexels(Airlight light, ViewSegment segment, inout Light sum) {
 #endif
       float uCell = cellEnd(line, walk), uEnd = uCell;
 #if FILTER_BILINEAR
-      // A mean visibility stands for a piece only where the airlight hardly changes.
+      // A mean visibility along the line stands for a piece only where the airlight and the line's scale hardly change.
       float s = distanceAt(segment, walk.u), uSteady = parameterAt(segment, s + steadyLength(light, segment.s0, s));
+      float scale = 1.0 - walk.u + walk.u * segment.weight, change = abs(1.0 - segment.weight);
+      uSteady = min(uSteady, walk.u + 0.1 * scale / max(change, 0.1 * scale));
       if (cuts > 0 && uSteady > walk.u && uSteady < uCell) {
         uEnd = uSteady;
         --cuts;

@@ -344,6 +344,31 @@ TEST_CASE("filtered shadows of a spot in a coarse map follow its soft edge, also
       }
 }
 
+// Texels of a view of nearly half of all directions: along a ray most of one is passed within a hundredth of the way.
+TEST_CASE("filtered shadows of a spot that is nearly a half space leave what they should behind a dark centre") {
+  for (const double side : {0.1, 0.5, 2.0}) {
+    CAPTURE(side);
+    tests::SceneRig rig;
+    Light& light = rig.addLight(LightKind::Spot);
+    const glm::dmat4 worldFromView = glm::inverse(reference::toMat4(rig.frame.camera.viewFromWorld));
+    light.position = toVec3(glm::dvec3(worldFromView * glm::dvec4(side, -1.2 * side, -2, 1)));
+    light.direction = toVec3(glm::dvec3(worldFromView * glm::dvec4(-side, 1.2 * side, 2, 0)));
+    light.innerConeAngle = light.outerConeAngle = 1.569F;
+    rig.frame.settings.shadowFilter = ShadowFilter::Bilinear;
+    const glm::dvec3 position = reference::toVec3(light.position), direction = reference::toVec3(light.direction);
+    light.shadow.views = {{tests::toMat4(glm::perspective(3.12, 1.0, 0.01, 60.0) *
+                                         glm::lookAt(position, position + direction, glm::dvec3(0.1, 1, 0.2))),
+                           0}};
+    reference::ShadowImage map;
+    map.width = map.height = 3;
+    map.layers = 1;
+    map.depth = {1, 1, 1, 1, 0, 1, 1, 1, 1};
+    rig.setShadow(0, map);
+    rig.render();
+    checkAgainstReference(rig, 5e-3);
+  }
+}
+
 // See stress.loops.dark-channel, too.
 TEST_CASE("filtered shadows of a lamp far behind the eye reach to where the clearest channel ends") {
   for (const double behind : {3.0, 6e4}) {
