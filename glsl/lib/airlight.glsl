@@ -13,6 +13,17 @@
 #define Light Spectrum
 #endif
 
+// A way of one optical depth in the channel that needs most care: of as many more as less light is left in it after a way from where
+// it is brightest, or of a whole way to the eye. (An error that light of exp(-x) makes may be exp(x) times as great a part of it, and grows
+// as the square of a step.)
+float steadyDepth(float way, float wholeWay) {
+  vec3 gone = max(extinction * way, 0.5 * extinction * wholeWay - 10.0);
+  vec3 depth = exp(0.5 * clamp(gone, 0.0, 60.0)) / max(extinction, vec3(1e-30));
+  return min(depth.r, min(depth.g, depth.b));
+}
+
+float steadyDepth() { return 1.0 / max(max(extinction.r, max(extinction.g, extinction.b)), 1e-30); }
+
 // (1 - exp(-x)) / x for x >= 0: a series where the difference would cancel.
 float relativeExpm1(float x) {
   if (x < 0.5) {
@@ -42,12 +53,18 @@ Airlight airlightOf(Ray ray) {
 
 void litRange(Airlight light, inout float s0, inout float s1) {}
 
-// A length from s on over which the airlight changes by about a twentieth in any channel of which 6e-6 of what it is at s0 are left.
+// A length from s on over which the airlight changes by about a twentieth in any channel, but more and more where it is less than it is at
+// s0 or where the ray crosses the medium's boundary.
 float steadyLength(Airlight light, float s0, float s) {
-  const float kFew = 12.0; // optical depths
-  vec3 left = mix(extinction, vec3(0.0), greaterThan(extinction * ((s - s0) * (1.0 + min(light.pathSlope, 0.0))), vec3(kFew)));
-  return 0.05 / max(max(left.r, max(left.g, left.b)) * (1.0 + abs(light.pathSlope)), 1e-30);
+  float path = light.path + s * light.pathSlope, slope = path > 0.0 ? 1.0 + light.pathSlope : 1.0, whole = s + max(path, 0.0);
+  float ahead = path * light.pathSlope < 0.0 ? -path / light.pathSlope : 1e30; // to the boundary
+  float way = slope < 0.0 ? -slope * ahead : whole - (s0 + max(light.path + s0 * light.pathSlope, 0.0));
+  float len = 0.05 * steadyDepth(way, whole) / max(abs(slope), 1e-30);
+  return min(len, (slope < 0.0 ? 0.5 : 1.0) * ahead + 0.05 * steadyDepth());
 }
+
+// True if that is sure to be longer: what it takes to tell is little.
+bool isSteady(Airlight light, float s, float len) { return len * (1.0 + abs(light.pathSlope)) < 0.05 * steadyDepth(); }
 
 // The longest span over which a line stands for the airlight: of an optical depth of at most `most`.
 float evenLength(Airlight light, float most) {
@@ -90,17 +107,13 @@ struct Airlight {
 #endif
 };
 
-const float kNone = 80.0; // optical depths of which floats hold no light
-
-// A length from s on over which the airlight changes by about a twentieth in any channel of which 6e-6 of what it is at s0 are left, but
-// for a phase function's peak: in P = r + t (below), for what is left falls by exp(-extinction P), and directions and 1 / r^2 change
-// as P does relative to itself. Along a chord of a soft cone it is a bump.
+// A length from s on over which the airlight changes by about a twentieth in any channel, but more and more where it has become less than it
+// is at s0, and but for a phase function's peak: in P = r + t (below), for what is left falls by exp(-extinction P), and directions and
+// 1 / r^2 change as P does relative to itself.
 float steadyLength(Airlight light, float s0, float s) {
-  const float kFew = 12.0; // optical depths that leave 6e-6
   float t = s - light.foot, r = sqrt(t * t + light.height2), P = t > 0.0 ? r + t : light.height2 / (r - t);
-  float t0 = s0 - light.foot, passed = max(s + r - (s0 + sqrt(t0 * t0 + light.height2)), kFew / kNone * (s + r));
-  vec3 left = mix(extinction, vec3(0.0), greaterThan(extinction * passed, vec3(kFew)));
-  float next = min(1.05 * P, P + 0.05 / max(max(left.r, max(left.g, left.b)), 1e-30));
+  float t0 = s0 - light.foot, r0 = sqrt(t0 * t0 + light.height2);
+  float next = min(1.05 * P, P + 0.05 * steadyDepth(s + r - (s0 + r0), s + r));
   float len = light.foot + 0.5 * (next - light.height2 / next) - s;
 #if LIGHT_KIND == 2
   // Before, within and behind the inner cone the falloff follows the angle at the lamp, t = h tan(angle).
@@ -108,10 +121,19 @@ float steadyLength(Airlight light, float s0, float s) {
     bool entersInner = light.inner.x < light.inner.y;
     vec2 part = !entersInner ? light.lit : s < light.inner.x ? vec2(light.lit.x, light.inner.x) : s < light.inner.y ? light.inner : vec2(light.inner.y, light.lit.y);
     float h = sqrt(light.height2), angle = atan(part.y - light.foot, h) - atan(part.x - light.foot, h);
-    len = min(len, (entersInner ? 0.04 : 0.01) * angle * (r * r / h));
+    len = min(len, (entersInner ? 0.02 : 0.01) * angle * (r * r / h));
   }
 #endif
   return len;
+}
+
+// True if that is sure to be longer: what it takes to tell is little.
+bool isSteady(Airlight light, float s, float len) {
+  float t = s - light.foot, share = 0.05;
+#if LIGHT_KIND == 2
+  if (falloffScale != 0.0) share = 0.4 * falloffPanel;
+#endif
+  return len < min(share * sqrt(t * t + light.height2), 0.025 * steadyDepth());
 }
 
 // The longest span over which a line stands for the airlight: `most` bounds its optical depth and its length by the distance
@@ -270,7 +292,7 @@ void addPiece(Airlight light, float s0, float s1, Visibility visibility, inout L
   float P = P0;
   for (int i = 0; i < kMaxPanels && remaining > 0.0; ++i) {
     // The fastest channel that is not dark yet bounds the panel.
-    vec3 passed = sigma * max(P - P0, kDark / kNone * (light.foot + P));
+    vec3 passed = sigma * max(P - P0, 0.25 * (light.foot + P));
     bvec3 dark = greaterThan(passed, vec3(kDark));
     if (all(dark)) break;
     vec3 alive = mix(sigma, vec3(0.0), dark);

@@ -286,7 +286,7 @@ void addTexels(Airlight light, ViewSegment segment, inout Light sum) {
   // Bounds the loops whatever the arithmetic does: pieces of cells, changes between them, and one look at nodes every few cells.
   int pieces = (kPiecesPerCell + 2) * walk.left + 8;
 #if FILTER_BILINEAR
-  int cuts = LIGHT_KIND == 0 ? 1000 : 800; // that steadiness may ask for, tens of optical depths: as many more pieces
+  int cuts = 600; // that steadiness may ask for: as many more pieces
   pieces += cuts;
 #endif
   Visibility current = Visibility(0.0);
@@ -315,7 +315,8 @@ void addTexels(Airlight light, ViewSegment segment, inout Light sum) {
       float uCell = cellEnd(line, walk), uEnd = uCell;
 #if FILTER_BILINEAR
       // A mean visibility along the line stands for a piece only where the airlight and the line's scale hardly change.
-      float s = distanceAt(segment, walk.u), uSteady = parameterAt(segment, s + steadyLength(light, segment.s0, s));
+      float s = distanceAt(segment, walk.u), uSteady = 1.0;
+      if (!isSteady(light, s, distanceAt(segment, uCell) - s)) uSteady = parameterAt(segment, s + steadyLength(light, segment.s0, s));
       float scale = 1.0 - walk.u + walk.u * segment.weight, change = abs(1.0 - segment.weight);
       uSteady = min(uSteady, walk.u + 0.1 * scale / max(change, 0.1 * scale));
       if (cuts > 0 && uSteady > walk.u && uSteady < uCell) {

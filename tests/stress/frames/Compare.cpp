@@ -115,8 +115,13 @@ Range roundedTruth(const reference::MapScene& scene, const std::vector<glm::ivec
       if (depth != 0 && depth != 1) depth *= 1 + steps;
     moveViews(other.lights,
               [&](std::size_t light) { return kRounding * any() * glm::dvec3(magnification(other.lights[light]), 1); });
-    // Where the light is, relative to the eye.
+    // Where the light is, relative to the eye, and rays are in its views.
     for (Light& light : other.lights) {
+      const glm::dmat4 turned = glm::translate(glm::dmat4(1), eye) *
+                                glm::rotate(glm::dmat4(1), kRounding * random.uniform(-1, 1), random.direction()) *
+                                glm::translate(glm::dmat4(1), -eye);
+      for (ShadowView& view : light.shadow.views)
+        view.clipFromWorld = tests::toMat4(reference::toMat4(view.clipFromWorld) * turned);
       const glm::dvec3 position = reference::toVec3(light.position);
       const double step = kRounding * (glm::length(position - eye) + origin) + kOfWorld * glm::length(eye);
       light.position = toVec3(position + step * any());
