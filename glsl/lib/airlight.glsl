@@ -13,8 +13,8 @@
 #define Light Spectrum
 #endif
 
-// A way of one optical depth in the channel that needs most care: of as many more as less light is left in it after a way from where
-// it is brightest, or of a whole way to the eye. (An error that light of exp(-x) makes may be exp(x) times as great a part of it, and grows
+// A way of one optical depth in the channel that needs most care: of more where less light is left in it, after a way from where it is
+// brightest or, which tells of twenty depths on, a whole way to the eye. (An error that light of exp(-x) makes may be exp(x) times as great a part of it, and grows
 // as the square of a step.)
 float steadyDepth(float way, float wholeWay) {
   vec3 gone = max(extinction * way, 0.5 * extinction * wholeWay - 10.0);
@@ -53,14 +53,16 @@ Airlight airlightOf(Ray ray) {
 
 void litRange(Airlight light, inout float s0, inout float s1) {}
 
-// A length from s on over which the airlight changes by about a twentieth in any channel, but more and more where it is less than it is at
-// s0 or where the ray crosses the medium's boundary.
-float steadyLength(Airlight light, float s0, float s) {
-  float path = light.path + s * light.pathSlope, slope = path > 0.0 ? 1.0 + light.pathSlope : 1.0, whole = s + max(path, 0.0);
-  float ahead = path * light.pathSlope < 0.0 ? -path / light.pathSlope : 1e30; // to the boundary
+// A length from s on over which the airlight changes by about a twentieth in any channel, but more and more where it is less than where it
+// is brightest: at s0 or, growing along the ray, at s1 or the medium's boundary.
+float steadyLength(Airlight light, float s0, float s1, float s) {
+  float path = light.path + s * light.pathSlope, whole = s + max(path, 0.0);
+  bool attenuated = path > 0.0 || (path == 0.0 && light.pathSlope > 0.0);
+  float slope = attenuated ? 1.0 + light.pathSlope : 1.0;
+  float toBoundary = path * light.pathSlope < 0.0 ? -path / light.pathSlope : 1e30, ahead = min(toBoundary, s1 - s);
   float way = slope < 0.0 ? -slope * ahead : whole - (s0 + max(light.path + s0 * light.pathSlope, 0.0));
   float len = 0.05 * steadyDepth(way, whole) / max(abs(slope), 1e-30);
-  return min(len, (slope < 0.0 ? 0.5 : 1.0) * ahead + 0.05 * steadyDepth());
+  return min(len, (slope < 0.0 ? 0.5 * ahead : toBoundary) + 0.05 * steadyDepth() / (1.0 + abs(light.pathSlope)));
 }
 
 // True if that is sure to be longer: what it takes to tell is little.
@@ -110,7 +112,7 @@ struct Airlight {
 // A length from s on over which the airlight changes by about a twentieth in any channel, but more and more where it has become less than it
 // is at s0, and but for a phase function's peak: in P = r + t (below), for what is left falls by exp(-extinction P), and directions and
 // 1 / r^2 change as P does relative to itself.
-float steadyLength(Airlight light, float s0, float s) {
+float steadyLength(Airlight light, float s0, float s1, float s) {
   float t = s - light.foot, r = sqrt(t * t + light.height2), P = t > 0.0 ? r + t : light.height2 / (r - t);
   float t0 = s0 - light.foot, r0 = sqrt(t0 * t0 + light.height2);
   float next = min(1.05 * P, P + 0.05 * steadyDepth(s + r - (s0 + r0), s + r));
@@ -129,11 +131,11 @@ float steadyLength(Airlight light, float s0, float s) {
 
 // True if that is sure to be longer: what it takes to tell is little.
 bool isSteady(Airlight light, float s, float len) {
-  float t = s - light.foot, share = 0.05;
+  float t = s - light.foot, r = sqrt(t * t + light.height2), least = min(0.048 * r, 0.025 * steadyDepth());
 #if LIGHT_KIND == 2
-  if (falloffScale != 0.0) share = 0.4 * falloffPanel;
+  if (falloffScale != 0.0) least = min(least, min(0.4 * falloffPanel * r, 0.01 * light.chord));
 #endif
-  return len < min(share * sqrt(t * t + light.height2), 0.025 * steadyDepth());
+  return len < least;
 }
 
 // The longest span over which a line stands for the airlight: `most` bounds its optical depth and its length by the distance
@@ -275,7 +277,7 @@ const float kNode2 = 0.5773502691896257;
 // One smooth piece of a span: panels in x, at most 1 or 1.75 long and at most 6 optical depths deep, Gauss-Legendre in each.
 void addPiece(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
   const int kMaxPanels = 32;
-  const float kDark = 20.0; // optical depths beyond the start after which nothing counts
+  const float kDark = 20.0; // optical depths beyond the start, or a quarter of those of the whole way, after which nothing counts
   float t0 = s0 - light.foot, t1 = s1 - light.foot;
   float r0 = sqrt(t0 * t0 + light.height2), r1 = sqrt(t1 * t1 + light.height2);
   float P0 = t0 > 0.0 ? r0 + t0 : light.height2 / (r0 - t0);

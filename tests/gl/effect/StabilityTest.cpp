@@ -398,10 +398,19 @@ TEST_CASE("filtered shadows of a lamp far behind the eye reach to where the clea
 
 // One channel is gone within a texel's first hundredth, another sees all of it.
 TEST_CASE("filtered shadows of a sun in a coarse map are exact in every channel of a coloured medium") {
-  for (const float scattering : {0.5F, 50.0F, 5000.0F}) {
-    CAPTURE(scattering);
+  // A boundary's share of the light's direction in its normal: across the light, or so much along it that light grows
+  // along rays.
+  for (const auto& [scattering, share] :
+       {std::pair{0.5F, 0.0}, {50.0F, 0.0}, {5000.0F, 0.0}, {0.5F, 0.05}, {3.0F, -0.05}, {0.5F, 0.3}}) {
+    CAPTURE(scattering, share);
     tests::SceneRig rig;
     Light& light = rig.addLight(LightKind::Directional);
+    if (share != 0) {
+      const glm::dvec3 along = glm::normalize(reference::toVec3(light.direction));
+      const glm::dvec3 across = glm::normalize(glm::cross(along, glm::dvec3(0.3, 0.2, 1)));
+      const glm::dvec3 eye(glm::inverse(reference::toMat4(rig.frame.camera.viewFromWorld))[3]);
+      light.boundary = {true, toVec3(eye + 2.0 * across), toVec3(across + share * along)};
+    }
     rig.frame.medium.constituents = {{{scattering, 0.3F, 0.01F}, Phase::HenyeyGreenstein, 0.6F}};
     rig.frame.settings.shadowFilter = ShadowFilter::Bilinear;
     reference::ShadowImage map;

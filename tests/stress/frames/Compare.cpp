@@ -98,7 +98,7 @@ std::vector<double> truthOf(const reference::MapScene& scene, const std::vector<
 
 Range roundedTruth(const reference::MapScene& scene, const std::vector<glm::ivec2>& pixels,
                    const Comparable& comparable) {
-  constexpr double kRounding = 1e-6, kOfWorld = 1e-14;
+  constexpr double kRounding = 1e-6, kOfFloats = 2e-7, kOfWorld = 1e-14;
   constexpr float kSteps = 2.5e-7F; // two steps of a float
   constexpr int kAnswers = 32;
   const glm::dvec3 eye(glm::inverse(reference::toMat4(scene.camera.viewFromWorld))[3]);
@@ -113,12 +113,13 @@ Range roundedTruth(const reference::MapScene& scene, const std::vector<glm::ivec
     const float steps = kSteps * static_cast<float>(random.uniform(-1, 1));
     for (float& depth : other.depth)
       if (depth != 0 && depth != 1) depth *= 1 + steps;
-    moveViews(other.lights,
-              [&](std::size_t light) { return kRounding * any() * glm::dvec3(magnification(other.lights[light]), 1); });
+    moveViews(other.lights, [&](std::size_t light) {
+      return any() * glm::max(glm::dvec3(kRounding), kOfFloats * glm::dvec3(magnification(other.lights[light]), 1));
+    });
     // Where the light is, relative to the eye, and rays are in its views.
     for (Light& light : other.lights) {
       const glm::dmat4 turned = glm::translate(glm::dmat4(1), eye) *
-                                glm::rotate(glm::dmat4(1), kRounding * random.uniform(-1, 1), random.direction()) *
+                                glm::rotate(glm::dmat4(1), kOfFloats * random.uniform(-1, 1), random.direction()) *
                                 glm::translate(glm::dmat4(1), -eye);
       for (ShadowView& view : light.shadow.views)
         view.clipFromWorld = tests::toMat4(reference::toMat4(view.clipFromWorld) * turned);

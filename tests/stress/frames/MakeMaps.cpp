@@ -91,7 +91,8 @@ struct Casters {
 
   /// Of a map that is so many texels wide.
   bool isNoise(int width) const {
-    return kind == Noise || ((kind == Bars || kind == Checker) && period <= 2) || (kind == Blocks && width < 8);
+    return kind == Noise || (kind == Bars && period == 2) || (kind == Checker && period <= 2) ||
+           (kind == Blocks && width < 8);
   }
 
   std::vector<double> shares(int width, int height, Random& random) const {

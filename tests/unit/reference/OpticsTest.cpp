@@ -136,7 +136,7 @@ TEST_CASE("weighted spans of a hundred thousand optical depths see what is next 
     for (const int kind : {0, 1, 2, 3}) {
       tyndall::Light light;
       light.direction = {0, -1, 0.3};
-      if (kind == 1) light.boundary = {true, {0, 0, 0.5}, {0, 0, -1}}; // the far end is the bright one
+      if (kind == 1) light.boundary = {true, {0, 0, -20.5}, {0, 0, 1}}; // the far end is the bright one
       if (kind == 2) light = pointAt({0.5 / sigma, 0, 0.1});
       if (kind == 3) light = pointAt({0, 0.1, -3});
       CAPTURE(sigma, kind);
