@@ -14,11 +14,11 @@
 #endif
 
 // A way of one optical depth in the channel that needs most care: of more where less light is left in it, after a way from where it is
-// brightest or, which tells of twenty depths on, a whole way to the eye. (An error that light of exp(-x) makes may be exp(x) times as great a part of it, and grows
-// as the square of a step.)
+// brightest or, which tells of twenty depths on, a whole way to the eye. (An error grows as the square of a step, and light of exp(-x) may
+// have one exp(x) times as great; half of that, since what is brightest may lie in shadow.)
 float steadyDepth(float way, float wholeWay) {
   vec3 gone = max(extinction * way, 0.5 * extinction * wholeWay - 10.0);
-  vec3 depth = exp(0.5 * clamp(gone, 0.0, 60.0)) / max(extinction, vec3(1e-30));
+  vec3 depth = exp(0.25 * clamp(gone, 0.0, 60.0)) / max(extinction, vec3(1e-30));
   return min(depth.r, min(depth.g, depth.b));
 }
 

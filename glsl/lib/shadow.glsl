@@ -291,9 +291,6 @@ void addTexels(Airlight light, ViewSegment segment, inout Light sum) {
 #endif
   Visibility current = Visibility(0.0);
   float from = 0.0;
-#if FILTER_BILINEAR
-  float litFrom = segment.s0; // where what is lit begins
-#endif
   bool done = false;
   while (!done) {
     Visibility weight;
@@ -317,11 +314,11 @@ void addTexels(Airlight light, ViewSegment segment, inout Light sum) {
 #endif
       float uCell = cellEnd(line, walk), uEnd = uCell;
 #if FILTER_BILINEAR
-      // A mean visibility along the line stands for a piece only where the airlight and the line's scale hardly change.
+      // A mean visibility along the line stands for a piece only where the airlight and the line's scale hardly change: whatever is lit,
+      // so that a map and its complement add up.
       float s = distanceAt(segment, walk.u), uSteady = 1.0;
-      if (current == Visibility(0.0)) litFrom = s;
       if (!isSteady(light, s, distanceAt(segment, uCell) - s)) {
-        uSteady = parameterAt(segment, s + max(steadyLength(light, litFrom, segment.s1, s), 1e-6 * s));
+        uSteady = parameterAt(segment, s + max(steadyLength(light, segment.s0, segment.s1, s), 1e-6 * s));
       }
       float scale = 1.0 - walk.u + walk.u * segment.weight, change = abs(1.0 - segment.weight);
       uSteady = min(uSteady, walk.u + 0.1 * scale / max(change, 0.1 * scale));
