@@ -18,7 +18,7 @@
 // have one exp(x) times as great; half of that, since what is brightest may lie in shadow.)
 float steadyDepth(float way, float wholeWay) {
   vec3 gone = max(extinction * way, 0.5 * extinction * wholeWay - 10.0);
-  vec3 depth = exp(0.25 * clamp(gone, 0.0, 60.0)) / max(extinction, vec3(1e-30));
+  vec3 depth = exp(0.25 * clamp(gone, 0.0, 240.0)) / max(extinction, vec3(1e-30));
   return min(depth.r, min(depth.g, depth.b));
 }
 
