@@ -231,14 +231,15 @@ private:
   /// No light comes from shadows: nowhere more than without them, in the pixel or in those that it is interpolated
   /// from.
   void checkBound(const std::string& name, const reference::Image& image, int reach, double slack) {
-    if (comparable_.isLampAtEye) return; // its light has no end
+    if (comparable_.isLampAtEye) slack = std::max(slack, 0.01); // its light ends by floors alone
     double worst = 0;
     for (int y = 0; y < image.height; ++y)
       for (int x = 0; x < image.width; ++x) {
         const reference::Rgb value = image.at(x, y);
         reference::Rgb most(mostAround(unshadowed_, x, y, 0, reach), mostAround(unshadowed_, x, y, 1, reach),
                             mostAround(unshadowed_, x, y, 2, reach));
-        if (reach == 0 && excess(value, most) > slack) most = unshadowedTruth({x, y}); // which rounds otherwise
+        if (reach == 0 && !comparable_.isLampAtEye && excess(value, most) > slack)
+          most = unshadowedTruth({x, y});             // which rounds otherwise
         if (reach > 0 && excess(value, most) > slack) // a sample may meet a peak between the pixels
           for (int c = 0; c < 3; ++c)
             most[c] = std::max(most[c], mostAround(brightestBetween(), x, y, static_cast<std::size_t>(c), reach));

@@ -31,8 +31,9 @@ std::vector<double> withoutGlare(std::vector<double> values, const Comparable& c
 std::vector<double> truthOf(const reference::MapScene& scene, const std::vector<glm::ivec2>& pixels,
                             const Comparable& comparable);
 
-/// What the answers come to when the inputs move by what floats hold of them: depth by two steps, points and rays by
-/// 1e-6 of their distances to light and eye, in shadow maps, too, and lamps by what doubles hold of where the eye is.
+/// What the answers come to when the inputs move by what floats hold of them: depth by two steps, points by 1e-6 of
+/// their distances to light and eye, rays and lamps' views by angles of 2e-7, and lamps by what doubles hold of where
+/// the eye is.
 Range roundedTruth(const reference::MapScene& scene, const std::vector<glm::ivec2>& pixels,
                    const Comparable& comparable);
 
