@@ -294,13 +294,30 @@ private:
   Linear u_, v_;
 };
 
+/// Where [s0, s1] is cut: evenly, and by sixteenths of octaves towards both ends, next to one of which a thick medium
+/// has all of its light.
+std::vector<double> piecesOf(double s0, double s1) {
+  constexpr int kPieces = 128, kOctaves = 20, kOfOctave = 16;
+  std::vector<double> ends;
+  for (int i = 0; i <= kPieces; ++i)
+    ends.push_back(i == kPieces ? s1 : s0 + (s1 - s0) * i / kPieces);
+  for (int i = 1; i <= kOctaves * kOfOctave; ++i) {
+    const double share = std::exp2(-static_cast<double>(i) / kOfOctave) / kPieces;
+    ends.push_back(s0 + (s1 - s0) * share);
+    ends.push_back(s1 - (s1 - s0) * share);
+  }
+  std::sort(ends.begin(), ends.end());
+  return ends;
+}
+
 /// Two views' light of [s0, s1], in so many pieces that the weight of the first is even in each.
 Rgb fadedLight(const Airlight& airlight, const ViewWalk& first, const ViewWalk& second, double s0, double s1,
                const std::function<double(double)>& weightAt) {
-  constexpr int kPieces = 128;
+  const std::vector<double> ends = piecesOf(s0, s1);
   Rgb light(0);
-  for (int i = 0; i < kPieces; ++i) {
-    const double a = s0 + (s1 - s0) * i / kPieces, b = s0 + (s1 - s0) * (i + 1) / kPieces;
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    const double a = ends[i], b = ends[i + 1];
+    if (b <= a) continue;
     const double weight = weightAt(0.5 * (a + b));
     LightSum one(airlight), other(airlight);
     if (weight > 0) first.run(a, b, one);
