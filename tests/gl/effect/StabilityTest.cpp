@@ -1,7 +1,6 @@
 // Where formulas break: singular positions, aligned directions, extreme scales, NaN and Inf in what the engine hands
 // in. Everything stays finite, keeps to its own pixel, and equals the reference where that is finite.
-#include "SceneRig.h"
-#include "gl/effect/MapLayoutRig.h"
+#include "AgainstReference.h"
 #include "reference/CameraRays.h"
 #include "reference/Metrics.h"
 #include "support/Catch.h"
@@ -29,34 +28,6 @@ reference::Ray pixelRay(const tests::SceneRig& rig) {
 double surfaceDistance(const tests::SceneRig& rig) {
   const reference::CameraRays rays(rig.frame.camera, rig.frame.viewport.width, rig.frame.viewport.height);
   return rays.distance(kX, kY, rig.depth()[static_cast<std::size_t>(kY * rig.frame.viewport.width + kX)]);
-}
-
-double median(std::vector<double> values) {
-  values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return !(v > 0 && std::isfinite(v)); }),
-               values.end());
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// Largest error relative to the value or to the image's median, where the reference is finite. What float32 holds in
-// few bits or not at all counts as 0.
-double errorWhereFinite(const reference::Image& image, const reference::Image& truth) {
-  reference::tellOfComparison(image, truth);
-  const double scale = std::max(median(truth.rgb), 1e-32);
-  double worst = 0;
-  for (std::size_t i = 0; i < truth.rgb.size(); ++i) {
-    const double error = std::abs(image.rgb[i] - truth.rgb[i]);
-    if (error == 0 || !std::isfinite(truth.rgb[i]) || truth.rgb[i] > 1e6 * scale) continue;
-    worst = std::max(worst, error / std::max(scale, truth.rgb[i]));
-  }
-  return worst;
-}
-
-void checkAgainstReference(tests::SceneRig& rig, double tolerance) {
-  tests::checkFinite(rig);
-  CHECK(errorWhereFinite(rig.outputs().inscatter, rig.reference().inscatter) <= tolerance);
 }
 
 } // namespace
@@ -103,7 +74,7 @@ TEST_CASE("a point light at the eye, on a ray, at a surface or behind it") {
         if (place.alongRay(rig) == 0.0)
           tests::checkFinite(rig); // every ray runs through the light: infinite but for the floor of 1 / h
         else
-          checkAgainstReference(rig, 1e-3);
+          tests::checkAgainstReference(rig, 1e-3);
       }
 }
 
@@ -121,7 +92,7 @@ TEST_CASE("a spot light aimed along or against the view ray") {
         if (along == 0.0 && sideways < 0.1)
           tests::checkFinite(rig);
         else
-          checkAgainstReference(rig, 1e-3);
+          tests::checkAgainstReference(rig, 1e-3);
       }
 }
 
@@ -138,7 +109,7 @@ TEST_CASE("a sun along, against and perpendicular to the view axis") {
         light.shadow.views = tests::shadowViewsOf(light);
         rig.frame.settings.shadowFilter = filter;
         if (filter == ShadowFilter::Nearest) {
-          checkAgainstReference(rig, 1e-3);
+          tests::checkAgainstReference(rig, 1e-3);
           continue;
         }
         tests::checkFinite(rig);
@@ -169,7 +140,7 @@ TEST_CASE("a camera on a shadow view's near plane, far plane and plane of no pro
         light.shadow.views[0].clipFromWorld = tests::toMat4(
             glm::ortho(-6.0, 6.0, -6.0, 6.0, share == 1.0 ? -20.0 : 0.0, share == 1.0 ? 0.0 : 20.0) * view);
       }
-      checkAgainstReference(rig, 1e-3);
+      tests::checkAgainstReference(rig, 1e-3);
     }
 }
 
@@ -218,7 +189,7 @@ TEST_CASE("rays along the shadow map's axes and exactly on texel borders") {
       at(0);
       tests::checkFinite(rig);
       const reference::Image image = rig.outputs().inscatter;
-      const double slack = (filter == ShadowFilter::Nearest ? 1e-3 : 2e-2) * median(right.rgb);
+      const double slack = (filter == ShadowFilter::Nearest ? 1e-3 : 2e-2) * tests::median(right.rgb);
       for (std::size_t i = 0; i < image.rgb.size(); ++i) {
         CHECK(image.rgb[i] >= std::min(left.rgb[i], right.rgb[i]) - slack);
         CHECK(image.rgb[i] <= std::max(left.rgb[i], right.rgb[i]) + slack);
@@ -234,7 +205,7 @@ TEST_CASE("extinction from next to nothing to nearly opaque") {
       rig.addLight(kind);
       rig.frame.medium.constituents = {{{sigma, 0.5F * sigma, 0.1F * sigma}, Phase::HenyeyGreenstein, 0.3F}};
       rig.frame.medium.farDistance = 100;
-      checkAgainstReference(rig, 1e-3);
+      tests::checkAgainstReference(rig, 1e-3);
     }
 }
 
@@ -244,7 +215,7 @@ TEST_CASE("a light that ends before the ray, and the widest and narrowest cones"
       CAPTURE(static_cast<int>(kind), range);
       tests::SceneRig rig;
       rig.addLight(kind).range = range;
-      checkAgainstReference(rig, 1e-3);
+      tests::checkAgainstReference(rig, 1e-3);
     }
   for (const double outer : {glm::half_pi<double>(), 1.5, 1e-2, 1e-4})
     for (const double inner : {0.0, 0.5, 1.0})
@@ -255,7 +226,7 @@ TEST_CASE("a light that ends before the ray, and the widest and narrowest cones"
         light.direction = direction;
         light.outerConeAngle = outer;
         light.innerConeAngle = inner * outer;
-        checkAgainstReference(rig, 1e-3);
+        tests::checkAgainstReference(rig, 1e-3);
       }
 }
 
@@ -296,133 +267,6 @@ TEST_CASE("values at the ends of float32 stay finite") {
       }
 }
 
-TEST_CASE("filtered shadows of a lamp in a coarse map are exact in thick media, too") {
-  for (const LightKind kind : {LightKind::Point, LightKind::Spot})
-    for (const float scattering : {0.05F, 2.0F, 10.0F}) {
-      CAPTURE(static_cast<int>(kind), scattering);
-      tests::SceneRig rig;
-      Light& light = rig.addLight(kind);
-      light.position = {0, 1.2, 4.5}; // a way of less than two optical depths, or of tens
-      rig.frame.medium.constituents = {{{scattering, 0.3F * scattering, 0.01F}, Phase::HenyeyGreenstein, 0.6F}};
-      rig.frame.settings.shadowFilter = ShadowFilter::Bilinear;
-      reference::ShadowImage map;
-      map.width = map.height = 3;
-      map.layers = static_cast<int>(light.shadow.views.size());
-      map.depth = tests::casterDepths(tests::Casters::Blocks, kind, 3, map.layers);
-      rig.setShadow(0, map);
-      rig.render();
-      checkAgainstReference(rig, 5e-3);
-    }
-}
-
-// The falloff rises and falls within a texel, and what is lit may lie many optical depths away.
-TEST_CASE("filtered shadows of a spot in a coarse map follow its soft edge, also behind optical depths that are dark") {
-  for (const auto& [outer, inner] : {std::pair{0.03, 0.0}, {0.1, 0.0}, {0.7, 0.0}, {0.7, 0.6}})
-    for (const float scattering : {0.01F, 3.0F})
-      for (const double away : {0.0, 1e-6, 0.3}) {
-        CAPTURE(scattering, outer, inner, away);
-        tests::SceneRig rig;
-        Light& light = rig.addLight(LightKind::Spot);
-        const glm::dmat4 worldFromView = glm::inverse(reference::toMat4(rig.frame.camera.viewFromWorld));
-        light.position = toVec3(glm::dvec3(worldFromView * glm::dvec4(4.9, -3, -5, 1)));
-        light.direction = toVec3(glm::dvec3(worldFromView * glm::dvec4(-4.9, 3, away, 0)));
-        light.outerConeAngle = static_cast<float>(outer);
-        light.innerConeAngle = static_cast<float>(inner);
-        rig.frame.medium.constituents = {{{scattering, 0.3F * scattering, 0.01F}, Phase::HenyeyGreenstein, 0.6F}};
-        rig.frame.settings.shadowFilter = ShadowFilter::Bilinear;
-        const glm::dvec3 position = reference::toVec3(light.position), direction = reference::toVec3(light.direction);
-        light.shadow.views = {{tests::toMat4(glm::perspective(2.2 * outer, 1.0, 0.1, 60.0) *
-                                             glm::lookAt(position, position + direction, glm::dvec3(0.1, 1, 0.2))),
-                               0}};
-        reference::ShadowImage map;
-        map.width = map.height = 3;
-        map.layers = 1;
-        map.depth = tests::casterDepths(tests::Casters::Blocks, LightKind::Spot, 3, 1);
-        rig.setShadow(0, map);
-        rig.render();
-        checkAgainstReference(rig, 5e-3);
-      }
-}
-
-// Texels of a view of nearly half of all directions: along a ray most of one is passed within a hundredth of the way.
-TEST_CASE("filtered shadows of a spot that is nearly a half space leave what they should behind a dark centre") {
-  for (const double side : {0.1, 0.5, 2.0}) {
-    CAPTURE(side);
-    tests::SceneRig rig;
-    Light& light = rig.addLight(LightKind::Spot);
-    const glm::dmat4 worldFromView = glm::inverse(reference::toMat4(rig.frame.camera.viewFromWorld));
-    light.position = toVec3(glm::dvec3(worldFromView * glm::dvec4(side, -1.2 * side, -2, 1)));
-    light.direction = toVec3(glm::dvec3(worldFromView * glm::dvec4(-side, 1.2 * side, 2, 0)));
-    light.innerConeAngle = light.outerConeAngle = 1.569F;
-    rig.frame.settings.shadowFilter = ShadowFilter::Bilinear;
-    const glm::dvec3 position = reference::toVec3(light.position), direction = reference::toVec3(light.direction);
-    light.shadow.views = {{tests::toMat4(glm::perspective(3.12, 1.0, 0.01, 60.0) *
-                                         glm::lookAt(position, position + direction, glm::dvec3(0.1, 1, 0.2))),
-                           0}};
-    reference::ShadowImage map;
-    map.width = map.height = 3;
-    map.layers = 1;
-    map.depth = {1, 1, 1, 1, 0, 1, 1, 1, 1};
-    rig.setShadow(0, map);
-    rig.render();
-    checkAgainstReference(rig, 5e-3);
-  }
-}
-
-// See stress.loops.dark-channel, too.
-TEST_CASE("filtered shadows of a lamp far behind the eye reach to where the clearest channel ends") {
-  for (const double behind : {3.0, 6e4}) {
-    CAPTURE(behind);
-    tests::SceneRig rig;
-    for (double& distance : rig.distances)
-      distance = kInfinity;
-    rig.setConvention(tests::DepthConvention{});
-    Light& light = rig.addLight(LightKind::Point);
-    const glm::dmat4 worldFromView = glm::inverse(reference::toMat4(rig.frame.camera.viewFromWorld));
-    light.position = toVec3(glm::dvec3(worldFromView * glm::dvec4(0.02, 0.05, behind, 1)));
-    light.shadow.views = tests::faceViews(light);
-    rig.frame.medium.constituents = {{{3e-9F, 4e-5F, 1.7e-7F}, Phase::HenyeyGreenstein, 0.6F}};
-    rig.frame.medium.absorption = {0.022F, 1e-7F, 0};
-    rig.frame.medium.farDistance = kInfinity;
-    rig.frame.settings.shadowFilter = ShadowFilter::Bilinear;
-    reference::ShadowImage map;
-    map.width = map.height = 4;
-    map.layers = 6;
-    for (int i = 0; i < 4 * 4 * 6; ++i)
-      map.depth.push_back((i ^ (i >> 2)) % 2 ? 0.0F : 1.0F);
-    rig.setShadow(0, map);
-    rig.render();
-    checkAgainstReference(rig, 5e-3);
-  }
-}
-
-// One channel is gone within a texel's first hundredth, another sees all of it.
-TEST_CASE("filtered shadows of a sun in a coarse map are exact in every channel of a coloured medium") {
-  // A boundary's share of the light's direction in its normal: across the light, or so much along it that light grows
-  // along rays.
-  for (const auto& [scattering, share] :
-       {std::pair{0.5F, 0.0}, {50.0F, 0.0}, {5000.0F, 0.0}, {0.5F, 0.05}, {3.0F, -0.05}, {0.5F, 0.3}}) {
-    CAPTURE(scattering, share);
-    tests::SceneRig rig;
-    Light& light = rig.addLight(LightKind::Directional);
-    if (share != 0) {
-      const glm::dvec3 along = glm::normalize(reference::toVec3(light.direction));
-      const glm::dvec3 across = glm::normalize(glm::cross(along, glm::dvec3(0.3, 0.2, 1)));
-      const glm::dvec3 eye(glm::inverse(reference::toMat4(rig.frame.camera.viewFromWorld))[3]);
-      light.boundary = {true, toVec3(eye + 2.0 * across), toVec3(across + share * along)};
-    }
-    rig.frame.medium.constituents = {{{scattering, 0.3F, 0.01F}, Phase::HenyeyGreenstein, 0.6F}};
-    rig.frame.settings.shadowFilter = ShadowFilter::Bilinear;
-    reference::ShadowImage map;
-    map.width = map.height = 3;
-    map.layers = static_cast<int>(light.shadow.views.size());
-    map.depth = tests::casterDepths(tests::Casters::Blocks, LightKind::Directional, 3, map.layers);
-    rig.setShadow(0, map);
-    rig.render();
-    checkAgainstReference(rig, 5e-3);
-  }
-}
-
 TEST_CASE("a spot along an orthographic camera's rays lights nothing outside its cone") {
   for (const double turn : {0.0, 1e-9, 1e-7, 3e-4})
     for (const double side : {-1.0, 1.0}) {
@@ -438,7 +282,7 @@ TEST_CASE("a spot along an orthographic camera's rays lights nothing outside its
       light.innerConeAngle = 0.3F;
       light.outerConeAngle = 0.5F;
       rig.render();
-      checkAgainstReference(rig, 1e-3);
+      tests::checkAgainstReference(rig, 1e-3);
     }
 }
 
@@ -456,7 +300,7 @@ TEST_CASE("where an orthographic camera's far plane is changes nothing of what i
       rig.setConvention(convention);
       rig.addLight(kind);
       rig.render();
-      checkAgainstReference(rig, 1e-3);
+      tests::checkAgainstReference(rig, 1e-3);
     }
   }
 }

@@ -1,5 +1,6 @@
 # Tests of the effect, for the executable that includes this file.
 set(TYNDALL_GL_EFFECT_TESTS
+  ${CMAKE_CURRENT_LIST_DIR}/AgainstReference.cpp
   ${CMAKE_CURRENT_LIST_DIR}/AirlightTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/BandsTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/BetweenDrawsTest.cpp
@@ -11,6 +12,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/DriverTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EffectContextTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EngineDepthTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/EngineErrorTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EpipolarInputTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EpipolarSymmetryTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EpipolarTest.cpp
@@ -21,22 +23,22 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/FaultTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FaultyContext.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FaultyContextTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/FilteredShadowTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameCases.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameRectanglesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameTexturesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FrameValuesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GlState.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/GlesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GlThunks.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/GlesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GpuWaits.cpp
   ${CMAKE_CURRENT_LIST_DIR}/HostileEngineTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/HostileRows.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/JitterTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/KeptProgramsTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/LegacyState.cpp
   ${CMAKE_CURRENT_LIST_DIR}/LegacyTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/LowRankTest.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/ReuseFrameTest.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/ReuseMeshTest.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/ReuseTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MapCopyTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MapEncodingTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MapLayoutRig.cpp
@@ -47,15 +49,15 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/MistakesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MultisampledTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/NonFiniteTest.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/EngineErrorTest.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/JitterTest.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/KeptProgramsTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/PendingErrorTest.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/QueryTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/PrepareTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ProgramStoreTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/QueryTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/RadianceTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/RefusalRig.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/ReuseFrameTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/ReuseMeshTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/ReuseTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SceneRig.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ShaftRig.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SkipTest.cpp
@@ -69,6 +71,6 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/TuningTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/TurningCameraTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ViewBorderTest.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/ViewportTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ViewTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/ViewportTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/VirtualPrograms.cpp)
