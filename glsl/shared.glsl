@@ -11,6 +11,10 @@
 #define EPIPOLE_GAP 0.25 // pixels between an epipole in the image and where slices begin
 #define CHECK_WIDTH 64 // points where scene depth and shadow maps are compared (Config::checkInputs), of a picture
 #define CHECK_HEIGHT 36
+#define ESTIMATE_CODES 512  // fragments that stand for the most that sliceEstimate.frag can say: so many for a share of 1, or
+#define ESTIMATE_LEAST 384  // for an error 2^((fragments - ESTIMATE_LEAST) / ESTIMATE_OCTAVE)
+#define ESTIMATE_OCTAVE 16
+#define SLICE_BUDGETS 96 // targets that are tried (lib/sliceSpacing.glsl); the last one is met by every picture
 #define LAMP_PIXELS 32.0 // around a lamp in the image, where every pixel is marched by itself: its light is brightest there
 
 UNIFORM_BLOCK(FrameBlock) {
@@ -123,5 +127,7 @@ UNIFORM_BLOCK(EpipolarBlock) {
   int comparesDepth, comparesSome;    // the depth itself, only some of the slices
   int shownSamples;                   // debug views of samples: 0 all, 1 at depth breaks, 2 march samples
   int keepsEnds;                      // temporal reuse: ends that other jitters saw stay where they may
-  int epipolarPadding0;
+  float sliceTarget;                  // error, as a part of the picture's mean, for which slices are chosen; 0: all are drawn (lib/slices.glsl),
+  int candidateSlices;                // and from how many
+  int epipolarPadding0, epipolarPadding1, epipolarPadding2;
 };

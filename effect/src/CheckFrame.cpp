@@ -144,6 +144,8 @@ Status checkSettings(const Settings& settings) {
     return invalid("settings.leastWeight", text(settings.leastWeight), "must be 0 to 1");
   if (!(settings.averageThreshold >= 0 && settings.averageThreshold <= 1))
     return invalid("settings.averageThreshold", text(settings.averageThreshold), "must be 0 to 1");
+  if (!(settings.errorTarget >= 0 && settings.errorTarget <= 1))
+    return invalid("settings.errorTarget", text(settings.errorTarget), "must be 0 to 1");
   if (!(settings.spreadThreshold > 0))
     return invalid("settings.spreadThreshold", text(settings.spreadThreshold), "must be > 0");
   if (settings.sampleBudget != 0 && settings.sampleBudget < 4096)

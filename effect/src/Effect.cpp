@@ -91,7 +91,7 @@ Status Effect::State::planFrame(const Frame& frame, const FrameTextures& texture
                                 Draws what) {
   framebuffers.beginFrame();
   Allocator allocator(framebuffers, true);
-  const PlanInputs inputs{frame, textures, limits, tuning, targets, eye, recorder.counts(), &paces};
+  const PlanInputs inputs{frame, textures, limits, tuning, targets, eye, recorder.canCount(), &paces};
   FramePlanner planner(inputs, allocator, planned);
   if (what == Draws::All) planner.plan();
   if (checksInputs) planner.planCheck();
@@ -110,7 +110,7 @@ bool Effect::State::draw(const Frame& given, const PlannedFrame& planned, gl::St
   if (units.stencil) guard.saveStencil();
   if (units.scissor) guard.saveScissorBox();
   if (units.copies || planned.checks != 0) guard.saveReadFramebuffer();
-  recorder.countMarched(planned.plan.marched);
+  recorder.add(planned.plan.marched, planned.plan.slices);
   const DrawObjects objects{vertexArray.name(), nearestSampler.name(), planned.empty, blocks};
   const bool isWhole = drawPlan(planned.plan, gl, objects, recorder, paces, betweenDraws);
   visits = isWhole ? planned.visits : 0;

@@ -76,12 +76,16 @@ Status Effect::compileAll() {
 Statistics Effect::statistics() {
   State& state = *state_;
   KeptEye* const eye = state.lastEye ? state.eyes.find(*state.lastEye) : nullptr;
+  const PassRecorder::Counts& counts = state.recorder.counts();
   return {state.recorder.collect(),
           state.targets.bytes() + state.eyes.bytes() + state.objectBoxes.bytes() + state.inputChecks.bytes() +
               state.blocks.bytes(),
           state.programs.size(),
-          state.recorder.fixupPixels(),
-          state.recorder.marched(),
+          counts.fixupPixels,
+          counts.marched,
+          counts.slices,
+          counts.errorEstimate,
+          counts.shareOverTarget,
           eye ? eye->counts.lastShare() : 1,
           state.visitsPerRay(),
           state.tuning,

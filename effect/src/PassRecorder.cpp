@@ -1,6 +1,9 @@
 #include "PassRecorder.h"
 
+#include "SharedBlocks.h"
+
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace tyndall {
@@ -19,16 +22,20 @@ bool countsItself(const gl::Functions& gl) {
   });
 }
 
+// What glsl/passes/sliceEstimate.frag has so many fragments for.
+double estimateOf(std::uint64_t fragments) {
+  return std::exp2((static_cast<double>(fragments) - ESTIMATE_LEAST) / ESTIMATE_OCTAVE);
+}
+
 } // namespace
 
 void PassRecorder::beginFrame() {
   passes_.clear();
   counted_.clear();
-  fixupPixels_ = 0;
-  marched_ = 0;
+  counts_ = {};
   ++frame_;
   pools().counts.used = pools().times.used = 0;
-  counts_ = gl_.countsSamples && !countsItself(gl_);
+  canCount_ = gl_.countsSamples && !countsItself(gl_);
 }
 
 void PassRecorder::skip(const std::string& pass, const std::string& why) { passes_.push_back({{pass, why, 0}}); }
@@ -47,14 +54,14 @@ void PassRecorder::begin(const std::string& name, const Counting& counting) {
   } else if (timing_ == PassTiming::TimerQuery) {
     stamp();
   }
-  if (!counts_ || counting.what == Count::None) return;
+  if (!canCount_ || counting.what == Count::None) return;
   const gl::Uint query = counting.what == Count::Into ? counting.query->name() : nextQuery(pools().counts);
   if (counting.what != Count::Into) counted_.push_back({counting, query});
   gl_.BeginQuery(gl::SAMPLES_PASSED, query);
 }
 
 void PassRecorder::end(const Counting& counting) {
-  if (counts_ && counting.what != Count::None) gl_.EndQuery(gl::SAMPLES_PASSED);
+  if (canCount_ && counting.what != Count::None) gl_.EndQuery(gl::SAMPLES_PASSED);
   endBand();
   if (gl_.debugOutput) gl_.PopDebugGroup();
 }
@@ -93,25 +100,40 @@ std::uint64_t PassRecorder::resultOf(gl::Uint query) const {
   return result;
 }
 
-void PassRecorder::collectCounts() {
-  for (const Counted& counted : counted_) {
-    const std::uint64_t written = resultOf(counted.query), pixels = counted.counting.pixels;
-    const bool serves = counted.counting.what == Count::Served;
-    const std::uint64_t rays = serves ? pixels - std::min(written, pixels) : written;
-    marched_ += rays;
-    if (counted.counting.what != Count::Marched) fixupPixels_ += rays;
-  }
+const PassRecorder::Counts& PassRecorder::counts() {
+  for (const Counted& counted : counted_)
+    add(counted.counting, resultOf(counted.query));
   counted_.clear();
+  return counts_;
 }
 
-std::uint64_t PassRecorder::fixupPixels() {
-  collectCounts();
-  return fixupPixels_;
-}
-
-std::uint64_t PassRecorder::marched() {
-  collectCounts();
-  return marched_;
+void PassRecorder::add(const Counting& counting, std::uint64_t written) {
+  const auto fixedUp = [this](std::uint64_t pixels) {
+    counts_.marched += pixels;
+    counts_.fixupPixels += pixels;
+  };
+  switch (counting.what) {
+  case Count::Marched:
+    counts_.marched += written * std::max<std::uint64_t>(counting.pixels, 1);
+    break;
+  case Count::Served:
+    fixedUp(counting.pixels - std::min(written, counting.pixels));
+    break;
+  case Count::FixedUp:
+    fixedUp(written);
+    break;
+  case Count::Slices:
+    counts_.slices += written;
+    break;
+  case Count::Estimate:
+    if (written > 0) counts_.errorEstimate = std::max(counts_.errorEstimate, estimateOf(written));
+    break;
+  case Count::OverTarget:
+    counts_.shareOverTarget = std::max(counts_.shareOverTarget, static_cast<double>(written) / ESTIMATE_CODES);
+    break;
+  default:
+    break;
+  }
 }
 
 std::vector<PassStatistics> PassRecorder::collect() {

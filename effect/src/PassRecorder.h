@@ -13,15 +13,18 @@ namespace tyndall {
 /// What the fragments that a pass writes say, to be read in later frames.
 enum class Count {
   None,
-  Marched, ///< each marches one ray
-  Served,  ///< those of the image that are not among them are marched by themselves
-  FixedUp, ///< each is one of those
-  Into,    ///< what its caller makes of them
+  Marched,    ///< each marches one ray
+  Served,     ///< those of the image that are not among them are marched by themselves
+  FixedUp,    ///< each is one of those
+  Slices,     ///< each is a slice that was drawn
+  Estimate,   ///< as many as stand for the error expected for want of slices (glsl/passes/sliceEstimate.frag)
+  OverTarget, ///< likewise for the share of the area that is off by more than the target
+  Into,       ///< what its caller makes of them
 };
 
 struct Counting {
   Count what = Count::None;
-  std::uint64_t pixels = 0;         ///< Served: of the image
+  std::uint64_t pixels = 0;         ///< Served: of the image. Marched: rays of a fragment; 0: one
   const gl::Query* query = nullptr; ///< Into: the caller's
 };
 
@@ -33,12 +36,15 @@ public:
 
   void beginFrame();
   void skip(const std::string& pass, const std::string& why);
-  void countMarched(std::uint64_t rays) { marched_ += rays; }
+  void add(std::uint64_t marched, std::uint64_t slices) {
+    counts_.marched += marched;
+    counts_.slices += slices;
+  }
 
   /// False in a frame during which a query of the engine's own is under way: GL has but one at a time.
-  bool counts() const { return counts_; }
+  bool canCount() const { return canCount_; }
 
-  /// Runs a pass: times it, counts its fragments if the frame counts() and, where the context has debug groups, names
+  /// Runs a pass: times it, counts its fragments if the frame canCount() and, where the context has debug groups, names
   /// it for GL debuggers.
   template <typename Pass>
   bool run(const std::string& name, Pass&& pass, const Counting& counting = {}) {
@@ -53,9 +59,12 @@ public:
   /// The band after nextBand() begins here, by PassTiming::Finish: what was done between adds nothing to it.
   void resume();
 
-  /// Of the frame; wait for its queries.
-  std::uint64_t fixupPixels();
-  std::uint64_t marched();
+  /// Of the frame; waits for its queries.
+  struct Counts {
+    std::uint64_t fixupPixels = 0, marched = 0, slices = 0;
+    double errorEstimate = 0, shareOverTarget = 0; // the largest of all lights
+  };
+  const Counts& counts();
   /// Passes of the frame in order; waits for timer queries.
   std::vector<PassStatistics> collect();
 
@@ -85,18 +94,17 @@ private:
   gl::Uint nextQuery(Pool& pool);
   Pools& pools() { return pools_[frame_ % pools_.size()]; }
   std::uint64_t resultOf(gl::Uint query) const;
-  void collectCounts();
+  void add(const Counting& counting, std::uint64_t written);
 
   const gl::Functions& gl_;
   PassTiming timing_;
   std::chrono::steady_clock::time_point start_;
   std::array<Pools, 3> pools_; // of the last frames: as many as an engine has under way
   std::size_t frame_ = 0;
-  bool counts_ = true;
+  bool canCount_ = true;
   std::vector<Timed> passes_;
   std::vector<Counted> counted_; // not read yet
-  std::uint64_t fixupPixels_ = 0;
-  std::uint64_t marched_ = 0;
+  Counts counts_;
 };
 
 } // namespace tyndall

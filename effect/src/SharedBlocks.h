@@ -21,7 +21,7 @@ static_assert(sizeof(FrameBlock) == 16 * (3 + 1 + 1 + 1 + 2 * MAX_CONSTITUENTS +
 static_assert(sizeof(MapView) == 16 * 9);
 static_assert(sizeof(LightBlock) == 16 * 7 + sizeof(MapView) * MAX_SHADOW_VIEWS);
 static_assert(sizeof(CopyBlock) == 16 * (3 + 1 + 3));
-static_assert(sizeof(EpipolarBlock) == 16 * 12);
+static_assert(sizeof(EpipolarBlock) == 16 * 13);
 constexpr bool beginsRow(std::size_t offset) { return offset % 16 == 0; }
 constexpr bool isAligned(std::size_t offset) { return offset % 8 == 0; } // a pair
 static_assert(beginsRow(offsetof(FrameBlock, extinction)) && beginsRow(offsetof(FrameBlock, phaseWeight)));

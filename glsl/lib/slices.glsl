@@ -30,9 +30,42 @@ float sliceCoordinate(vec2 p) {
   return along / sliceWidth - 0.5;
 }
 
-// The two slices around a coordinate; with a closed border the last neighbours the first.
+// With a sliceTarget sliceCount of them at most are drawn, chosen from candidateSlices: of each block of eight one, two, four or all,
+// evenly apart from its first on. Columns of epipolar textures are those that are drawn, in their order. Of each block: its first
+// column, slices that are drawn of it, the column that follows; behind all blocks, how many columns there are. Width: blocks + 1.
+uniform sampler2D sliceBlocks;
+const int kBlock = 8;
+
+int drawnColumns() { return sliceTarget > 0.0 ? int(texelFetch(sliceBlocks, ivec2(candidateSlices / kBlock, 0), 0).r) : sliceCount; }
+
+// With a closed border the last slice neighbours the first; at an open one the last stands for those beyond.
+int wrapped(int column, int columns) { return slicesClosed != 0 ? (column + columns) % columns : clamp(column, 0, columns - 1); }
+
+// The columns of the two slices around a coordinate, where all are drawn.
 ivec2 neighbourSlices(float coordinate) {
-  int low = int(floor(coordinate)), last = sliceCount - 1;
-  if (slicesClosed != 0) return ivec2((low + sliceCount) % sliceCount, (low + 1 + sliceCount) % sliceCount);
-  return clamp(ivec2(low, low + 1), ivec2(0), ivec2(last));
+  int low = int(floor(coordinate));
+  return ivec2(wrapped(low, sliceCount), wrapped(low + 1, sliceCount));
+}
+
+// The columns of the two slices that are drawn around a coordinate, how far it lies from the first to the second, and by how many slices
+// they are apart.
+struct SlicePair {
+  ivec2 columns;
+  float share;
+  int apart;
+};
+
+SlicePair slicesAround(float coordinate) {
+  if (sliceTarget == 0.0) return SlicePair(neighbourSlices(coordinate), coordinate - floor(coordinate), 1);
+  float x = coordinate < 0.0 && slicesClosed != 0 ? coordinate + float(candidateSlices) : max(coordinate, 0.0);
+  int block = min(int(x) / kBlock, candidateSlices / kBlock - 1);
+  ivec3 own = ivec3(texelFetch(sliceBlocks, ivec2(block, 0), 0).rgb);
+  float place = (x - float(kBlock * block)) * float(own.y) / float(kBlock);
+  int before = min(int(place), own.y - 1), low = own.x + before;
+  return SlicePair(ivec2(low, before + 1 < own.y ? low + 1 : own.z), min(place - float(before), 1.0), kBlock / own.y);
+}
+
+int nearestSlice(float coordinate) {
+  SlicePair pair = slicesAround(coordinate);
+  return pair.share < 0.5 ? pair.columns.x : pair.columns.y;
 }

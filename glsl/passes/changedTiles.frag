@@ -28,8 +28,6 @@ ivec2 slicesOf(vec2 low, vec2 high) {
   return ivec2(first, min(int(floor(most)) + 2 - first, sliceCount));
 }
 
-int wrapped(int slice) { return slicesClosed != 0 ? (slice + sliceCount) % sliceCount : clamp(slice, 0, sliceCount - 1); }
-
 float farthestEnd(ivec2 first, ivec2 last) {
   float end = 0.0;
   for (int y = first.y; y <= last.y; ++y)
@@ -46,7 +44,7 @@ void main() {
   bool changed = false, compared = false;
   float alone = kNoEnd;
   for (int i = 0; i < slices.y && !changed; ++i) {
-    int slice = wrapped(slices.x + i);
+    int slice = wrapped(slices.x + i, sliceCount);
     if (!isCompared(slice)) continue;
     vec2 change = changeOf(slice, low, high);
     compared = true;

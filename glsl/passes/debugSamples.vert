@@ -1,6 +1,6 @@
 // Debug view of samples: a triangle around the centre of the pixel that holds a sample, in the sample's colour, for every sample
 // that the view shows (shownSamples). Draws 3 vertices a sample,
-// slice by slice. Reads the slice table, sampleEnds, marks and refinedMarks.
+// slice by slice. Reads the slice table, sliceBlocks, sampleEnds, marks and refinedMarks.
 #include "shared.glsl"
 #include "lib/slices.glsl"
 #include "lib/bits.glsl"
@@ -40,7 +40,7 @@ vec3 marchColour(int slice, int index) {
 
 // Black: not shown.
 vec3 colourOf(int slice, int index) {
-  if (index >= sliceSamples(slice)) return vec3(0.0);
+  if (index >= sliceSamples(slice) || slice >= drawnColumns()) return vec3(0.0);
   if (shownSamples == 0) return vec3(1.0, 1.0 / 4.0, 1.0 / 16.0);
   return shownSamples == 1 ? breakColour(slice, index) : marchColour(slice, index);
 }

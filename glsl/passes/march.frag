@@ -1,5 +1,6 @@
 // March: inscatter of one light, through the shadow views of a draw, along a slice's row and its tree: at the regular march samples, the
-// first of each segment; or, isImage, of every pixel or every pixel that unwarp left, by its nearest slice (Chen 2011).
+// first of each segment; or, isImage, of every pixel or every pixel that unwarp left, by its nearest slice (Chen 2011). SHARES 1: only
+// of those pixels, and not where the samples around tell enough (lib/shares.glsl); then epipolarInscatter and meanLight are read, too.
 // Reads slice table, row textures and sampleEnds or the scene depth. Writes marched: slices x segments, light as
 // lib/stored.glsl says, R32F (grey) or RGBA16F, added up over the draws, in parts only changedSegments; or as exact.frag does.
 #ifdef GL_ARB_shader_image_load_store
@@ -17,6 +18,13 @@ layout(early_fragment_tests) in; // its discard is no reason to shade pixels tha
 #include "lib/shadow.glsl"
 #include "lib/tree.glsl"
 #include "lib/row.glsl"
+
+#ifdef SHARES
+#include "lib/fromStored.glsl"
+#include "lib/openLight.glsl"
+#include "lib/shares.glsl"
+#include "lib/unwarp.glsl"
+#endif
 
 uniform sampler2D sampleEnds;
 uniform sampler2D changedSegments;
@@ -42,7 +50,7 @@ Target sampleTarget() {
 Target pixelTarget() {
   vec2 position = unjittered(gl_FragCoord.xy);
   float end = rayEnd(position, depthAt(ivec2(gl_FragCoord.xy)));
-  return Target(position, neighbourSlices(sliceCoordinate(position) + 0.5).x, end, true);
+  return Target(position, nearestSlice(sliceCoordinate(position)), end, true);
 }
 
 // What depends on the ray's direction alone: the sine by which a sample's light is stored, or the phase function of a pixel's.
@@ -60,6 +68,12 @@ void main() {
   if (isImage == 0) target = sampleTarget();
   if (!target.marched) discard;
   float end = target.marched ? max(target.end, 0.0) : 0.0;
+#ifdef SHARES
+  vec4 byShares = isNearLight(target.position) ? vec4(0.0) : radianceByShares(target.position, cameraRay(target.position), end);
+  outInscatter = vec4(min(byShares.rgb, vec3(lightCeiling)), 0.0);
+  outTransmittance = vec4(transmittanceTo(end), 1.0);
+  if (byShares.w > 0.0) return;
+#endif
   Light light = rowShadowedLight(target.position, 0.0, end, target.slice);
   Spectrum factor = factorOf(cameraRay(target.position));
   outInscatter = vec4(isImage == 0 ? storedLight(light, vec3(factor).x) : min(lightColour * vec3(factor) * vec3(light), vec3(lightCeiling)), 0.0);

@@ -22,7 +22,7 @@
 void main() {
   vec2 position = unjittered(gl_FragCoord.xy);
   float end = max(rayEnd(position, depthAt(ivec2(gl_FragCoord.xy))), 0.0);
-  int slice = neighbourSlices(sliceCoordinate(position) + 0.5).x;
+  int slice = nearestSlice(sliceCoordinate(position));
 #ifdef LOW_RANK
   startLowRank(cameraRay(position), slice);
 #endif

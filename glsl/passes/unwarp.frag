@@ -1,7 +1,7 @@
 // Unwarp: from slices to pixels, bilinear over two slices and two samples each, each sample weighted by how well its
 // distance agrees with the pixel's (Yusov 2013, "Transformation from epipolar to rectangular coordinates"). A pixel that no
 // sample serves, or whose samples differ by a share of the picture's mean, is discarded, so that its stencil stays for the
-// fix-up. Reads the slice table, epipolarInscatter, the scene depth and, with SPREAD 1 (never with COMPOSITE), meanLight. Writes
+// fix-up. Reads the slice table, sliceBlocks, epipolarInscatter, the scene depth and, with SPREAD 1 (never with COMPOSITE), meanLight. Writes
 // inscatter and transmittance as exact.frag does.
 #include "shared.glsl"
 #include "lib/camera.glsl"
@@ -59,11 +59,11 @@ void addSlice(int slice, float sliceWeight, vec2 p, float end, inout Sums sums) 
 
 // Light of the ray up to an end, as textures hold it, and its weight: less than leastWeight where no sample serves.
 vec4 lightTo(float end, Ray ray, vec2 position, float place) {
-  float f = fract(place), coordinate = endCoordinate(ray, min(end, visibleEnd));
-  ivec2 slices = neighbourSlices(place);
+  float coordinate = endCoordinate(ray, min(end, visibleEnd));
+  SlicePair pair = slicesAround(place);
   Sums sums = Sums(vec4(0.0), vec4(0.0), 0.0, 0.0);
-  addSlice(slices.x, 1.0 - f, position, coordinate, sums);
-  addSlice(slices.y, f, position, coordinate, sums);
+  addSlice(pair.columns.x, 1.0 - pair.share, position, coordinate, sums);
+  addSlice(pair.columns.y, pair.share, position, coordinate, sums);
   // Where the samples' ends lead to the pixel's, one surface runs through all of them: to leave out those that
   // differ more, towards a horizon, say, would only pull to one side.
   float apart = abs(sums.plain.a - coordinate * sums.plainWeight), allowed = 0.125 * endThreshold * sums.plainWeight;

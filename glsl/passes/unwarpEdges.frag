@@ -1,6 +1,6 @@
 // Unwarp edges: as unwarp.frag, of the pixels whose samples show several surfaces; each sample takes from the slices what agrees with its
 // own distance: of the nearest four samples or, as both sides of an edge are near, of those around them. Reads the slice table,
-// epipolarInscatter and the depth of all samples. Writes edgeInscatter, image size, RGBA32F, the light of the samples that are served as
+// sliceBlocks, epipolarInscatter and the depth of all samples. Writes edgeInscatter, image size, RGBA32F, the light of the samples that are served as
 // a part of the pixel's; edgeTransmittance, the same, the mean; edgeRest, RG32F: a mask of the others, and 0, or 1 if there are none.
 #include "shared.glsl"
 #include "lib/camera.glsl"
@@ -39,13 +39,15 @@ void takeTwo(int slice, float weight, vec2 p, int beyond, float reach, out vec4 
   weights.y = reaches && index.y <= last ? weight * tent(y - index.y, reach) : 0.0;
 }
 
-// Those around the pixel, or so many slices and samples further.
-Four takeFour(vec2 p, float place, ivec2 beyond, float reach) {
+// Those around the pixel, or one slice and so many samples further.
+Four takeFour(vec2 p, SlicePair pair, ivec2 beyond, float reach) {
   Four four;
-  float low = floor(place) + float(beyond.x);
-  ivec2 slices = neighbourSlices(place + float(beyond.x));
-  takeTwo(slices.x, tent(place - low, reach), p, beyond.y, reach, four.texels[0], four.texels[1], four.weights.xy);
-  takeTwo(slices.y, tent(place - low - 1.0, reach), p, beyond.y, reach, four.texels[2], four.texels[3], four.weights.zw);
+  ivec2 slices = pair.columns;
+  if (beyond.x < 0) slices = ivec2(wrapped(slices.x - 1, drawnColumns()), slices.x);
+  if (beyond.x > 0) slices = ivec2(slices.y, wrapped(slices.y + 1, drawnColumns()));
+  float fromFirst = pair.share - float(beyond.x); // in slices, as if those were as far apart
+  takeTwo(slices.x, tent(fromFirst, reach), p, beyond.y, reach, four.texels[0], four.texels[1], four.weights.xy);
+  takeTwo(slices.y, tent(fromFirst - 1.0, reach), p, beyond.y, reach, four.texels[2], four.texels[3], four.weights.zw);
   four.coordinates = vec4(storedCoordinate(four.texels[0]), storedCoordinate(four.texels[1]), storedCoordinate(four.texels[2]),
                           storedCoordinate(four.texels[3]));
   return four;
@@ -70,11 +72,11 @@ vec4 nearestLight(Four four, float coordinate) {
 }
 
 // The same from all fours that have one of the nearest in a corner; nothing if none agrees as well as unwarp.frag asks for.
-vec4 lightAround(vec2 position, float place, float coordinate) {
+vec4 lightAround(vec2 position, SlicePair pair, float coordinate) {
   vec4 sum = vec4(0.0);
   float weight = 0.0;
   for (int i = 0; i < 4; ++i) {
-    Four four = takeFour(position, place, ivec2(i & 1, i >> 1) * 2 - 1, 2.0);
+    Four four = takeFour(position, pair, ivec2(i & 1, i >> 1) * 2 - 1, 2.0);
     sum += weigh(four, agreementOf(four, coordinate, 0.125 * endThreshold));
     weight += dot(agreementOf(four, coordinate, endThreshold), vec4(1.0));
   }
@@ -85,9 +87,10 @@ int lowestOf(int samples) { return int(log2(float(samples & -samples)) + 0.5); }
 
 void main() {
   vec2 position = unjittered(gl_FragCoord.xy);
-  float place = sliceCoordinate(position), share = 1.0 / float(depthSampleCount), served = 0.0;
+  float share = 1.0 / float(depthSampleCount), served = 0.0;
+  SlicePair pair = slicesAround(sliceCoordinate(position));
   Ray ray = cameraRay(position);
-  Four nearest = takeFour(position, place, ivec2(0), 1.0);
+  Four nearest = takeFour(position, pair, ivec2(0), 1.0);
   int left = 0, rest = 0;
   vec3 light = vec3(0.0), transmittance = vec3(0.0);
   for (int k = 0; k < depthSampleCount; ++k) {
@@ -109,7 +112,7 @@ void main() {
   }
   while (left != 0) {
     int sampleLeft = lowestOf(left);
-    vec4 own = lightAround(position, place, endCoordinate(ray, min(sampleEndAt(sampleLeft), visibleEnd)));
+    vec4 own = lightAround(position, pair, endCoordinate(ray, min(sampleEndAt(sampleLeft), visibleEnd)));
     light += own.rgb;
     served += own.w * share;
     rest |= own.w > 0.0 ? 0 : 1 << sampleLeft;

@@ -274,7 +274,8 @@ enum class Profile { Performance, Balanced, High, Reference };
 enum class DebugView {
   Composite, ///< the normal picture
   Slices,  ///< Tree, Epipolar, LowRank: each pixel's nearest slice: a hue for 16 of them, every second one darker; the
-           ///< light's own place in the image white
+           ///< light's own place in the image white. With an errorTarget the hue says how far they are apart: red where
+           ///< all are drawn that there may be, yellow, green, blue where every second, fourth, eighth is
   Samples, ///< Epipolar: samples in each pixel: red counts them, green their quarter, blue their sixteenth
   Breaks,  ///< Epipolar: samples on the near side of a depth break in red, on the far side in blue
   MarchSamples, ///< Epipolar: march samples in each pixel: blue counts the regular ones, red those that breaks, slice
@@ -317,6 +318,16 @@ struct Settings {
   /// to 0.05 bring thin shafts that run between two slices, at several times the cost; no profile asks for it. Pixels
   /// of a multisampled depth whose samples show several surfaces are left out: they take what the slices have.
   float spreadThreshold = std::numeric_limits<float>::infinity();
+  /// Epipolar: root mean square error of a light's inscatter, as a part of its mean, up to which slices and march
+  /// samples are left out: 0 to 1, 0.01 is a hundredth; 0: none is. A coarser look at the light, by an eighth of twice
+  /// as many as `slices`, tells where they are close to what those beside them lead to expect. Of a quarter as many as
+  /// `slices` to twice as many, by places, those are drawn that it takes, and no more than `slices` in all: so where
+  /// they count they may be twice as near to each other as without a target. Where that does not reach it the error is
+  /// greater; Statistics::errorEstimate says how great it is expected to be. Shafts that are thinner than that look's
+  /// slices are apart, 8 pixels at least at the border, 14 by Profile::High at 1280 x 720, may be missed where they lie
+  /// between. With a finite spreadThreshold, with Frame::reuse, and of fewer than 32 slices all are drawn, whatever the
+  /// target.
+  float errorTarget = 0;
   /// LowRank: terms of the approximation, 1 to 8. Its error grows with the optical depth and with how much a lamp's
   /// phase function is peaked. Where the airlight has more than two coordinates (an orthographic camera before a lamp,
   /// a light with a boundary) LowRank is Tree.
@@ -455,18 +466,28 @@ struct PassStatistics {
   double longestBand = 0;  ///< of them, in milliseconds; as those, and by PassTiming::Finish with a glFinish for each
 };
 
-/// OpenGL ES has no query that counts samples: fixupPixels and redrawnShare are 0 there, and marchedSamples leaves out
-/// what only a query tells.
+/// OpenGL ES has no query that counts samples: fixupPixels, redrawnShare and the estimate of errors are 0 there, and
+/// marchedSamples and drawnSlices leave out what only a query tells.
 struct Statistics {
   std::vector<PassStatistics> passes;
   /// GL memory the effect holds in textures and buffers: at most what the last 8 frames needed, of each of the last 4
   /// eyes that are kept
   std::uint64_t bytes = 0;
-  int compiledPrograms = 0;      ///< programs built so far
-  std::uint64_t fixupPixels = 0; ///< pixels that were marched by themselves after epipolar sampling
+  int compiledPrograms = 0; ///< programs built so far
+  /// Pixels that epipolar samples did not serve: they were marched by themselves or, with an errorTarget, some given
+  /// the share of light of the samples around.
+  std::uint64_t fixupPixels = 0;
   /// Camera rays integrated, over all lights, and over parts of a light's shadow views where those are too large to be
   /// marched at once; march samples that are integrated together, up to two of a slice, count as one.
   std::uint64_t marchedSamples = 0;
+  /// Epipolar: slices of all lights that were drawn, with an errorTarget rounded up to eights; with Frame::reuse all of
+  /// those lights of which something was drawn.
+  std::uint64_t drawnSlices = 0;
+  /// Settings::errorTarget: what a light's inscatter is expected to be off by for want of slices, for the light that it
+  /// is most for: root mean square as a part of the light's mean, to a twentieth; and the share of the image that is
+  /// off by more than the target. 0 without one.
+  double errorEstimate = 0;
+  double shareOverTarget = 0;
   /// Share of the slices' segments, over all lights, that were marched: 1 for a frame drawn in full, 0 for one that
   /// only composites what is kept.
   double redrawnShare = 1;

@@ -1,5 +1,6 @@
 #include "optics/Slices.h"
 
+#include "Rounding.h"
 #include "optics/Blocks.h"
 #include "optics/Jitter.h"
 #include "optics/Matrices.h"
@@ -212,10 +213,29 @@ void setStored(blocks::EpipolarBlock& block, const Frame& frame, const Light& li
   block.leastCoordinate = static_cast<float>(std::log2(longest) + 2 - kCoordinates);
 }
 
+constexpr float kLeastTarget = 1e-4F; // no picture comes as near as that: for less nothing is left out, either
+
+// Slices from which those that are drawn are chosen; 0: all are.
+int candidatesOf(const Frame& frame, int visibleSlices, int widest) {
+  constexpr int kFewest = 4 * kSliceBlock; // fewer are no choice
+  const int slices = frame.settings.slices;
+  if (!mayChooseSlices(frame) || std::min({slices, visibleSlices, widest}) < kFewest) return 0;
+  return std::min(roundedUp(std::min(2 * slices, visibleSlices), kSliceBlock), widest / kSliceBlock * kSliceBlock);
+}
+
 } // namespace
 
-SliceTable makeSlices(const Frame& frame, const Light& light, int shadowWidth, int shadowHeight) {
-  const int slices = frame.settings.slices, samples = frame.settings.samples;
+bool mayChooseSlices(const Frame& frame) {
+  const Settings& settings = frame.settings;
+  return settings.errorTarget > 0 && settings.technique == Technique::Epipolar &&
+         !std::isfinite(settings.spreadThreshold) && frame.reuse.changes == Changes::Unknown;
+}
+
+SliceSampling samplingOf(const Settings& settings) { return {1, settings.samples, settings.rowStep}; }
+
+SliceTable makeSlices(const Frame& frame, const Light& light, int shadowWidth, int shadowHeight,
+                      const SliceSampling& sampling) {
+  const int slices = frame.settings.slices, samples = sampling.samples;
   const Border border(dvec2(frame.viewport.width, frame.viewport.height), slicesBeyond(frame.camera));
   const dvec3 epipole = epipoleOf(frame, light);
   const std::array<bool, 4> exits = exitSides(epipole, border);
@@ -229,16 +249,21 @@ SliceTable makeSlices(const Frame& frame, const Light& light, int shadowWidth, i
     if (exits[static_cast<std::size_t>(side)]) visible += border.length(side);
 
   SliceTable table;
-  table.slices = std::max(1, std::min(slices, static_cast<int>(std::ceil(visible))));
+  const int visibleSlices = std::max(1, static_cast<int>(std::ceil(visible)));
+  const int candidates = candidatesOf(frame, visibleSlices, sampling.widest);
+  const int all = candidates > 0 ? candidates : std::min(slices, visibleSlices);
+  table.slices = unitsFor(all, sampling.every);
+  table.drawn = sampling.every == 1 ? std::min(slices, all) : table.slices;
   const auto count = static_cast<std::size_t>(table.slices);
   const std::size_t views = light.shadow.texture ? light.shadow.views.size() : 0;
   table.rows = static_cast<int>(2 + 2 * views);
   table.texels.assign(count * static_cast<std::size_t>(table.rows), glm::vec4(0));
-  const double step = visible / table.slices;
+  const double step = visible / all;
   const blocks::LightBlock lightMatrices = lightBlock(frame, light, shadowWidth, shadowHeight);
   const CameraRays rays(frame);
   for (std::size_t i = 0; i < count; ++i) {
-    const dvec2 exit = border.at(border.start(first) + (static_cast<double>(i) + 0.5) * step);
+    const double slice = static_cast<double>(i) * sampling.every;
+    const dvec2 exit = border.at(border.start(first) + (slice + 0.5) * step);
     const dvec2 entry = entryOf(epipole, border, exit);
     const double length = glm::distance(entry, exit);
     table.texels[i] = glm::vec4(entry, exit);
@@ -251,7 +276,7 @@ SliceTable makeSlices(const Frame& frame, const Light& light, int shadowWidth, i
     if (dvec4 unused; rays.orthographic) rays.at(entry, ends.otherBegin, unused);
     for (std::size_t v = 0; v < views; ++v) {
       const Row row = rowOf(glm::dmat4(lightMatrices.shadowViews[v].texelFromCamera), ends, !rays.orthographic,
-                            dvec2(lightMatrices.shadowViews[v].size), frame.settings.rowStep);
+                            dvec2(lightMatrices.shadowViews[v].size), sampling.rowStep);
       table.texels[(2 + 2 * v) * count + i] = row.originStep;
       table.texels[(3 + 2 * v) * count + i] = glm::vec4(row.texels, 0, 0, 0);
       table.longestRow = std::max(table.longestRow, static_cast<int>(row.texels));
@@ -265,8 +290,10 @@ SliceTable makeSlices(const Frame& frame, const Light& light, int shadowWidth, i
   block.sliceWidth = static_cast<float>(step);
   block.borderLength = static_cast<float>(border.perimeter());
   block.slicesClosed = closed ? 1 : 0;
-  block.sliceCount = table.slices;
+  block.sliceCount = table.drawn;
+  block.candidateSlices = all;
   block.samplesPerSlice = samples;
+  block.sliceTarget = candidates > 0 && sampling.every == 1 ? std::max(frame.settings.errorTarget, kLeastTarget) : 0;
   setRowCode(block, lightMatrices, views);
   setStored(block, frame, light, lightMatrices);
   return table;

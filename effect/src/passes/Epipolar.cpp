@@ -3,6 +3,7 @@
 #include "passes/DebugSlices.h"
 #include "passes/PixelTree.h"
 #include "passes/Rows.h"
+#include "passes/SliceChoice.h"
 #include "passes/Unwarp.h"
 
 #include <cmath>
@@ -16,7 +17,8 @@
 //   Techniques tree and lowrank:
 //                        scene depth, row depths, row tree --> [pixel tree] --> destination
 //
-//   Technique epipolar:  scene depth --> [samples] --> sample ends, marks
+//   Technique epipolar:  slices --> [slice choice] --> slice table (with Settings::errorTarget)
+//                        scene depth --> [samples] --> sample ends, marks
 //                        sample ends, rows --> [march] --> marched
 //                        marched --> [mean light] --> mean light
 //                        marks, marched --> [refine] --> refined marks, offsets
@@ -29,7 +31,20 @@ namespace tyndall::passes::epipolar {
 
 namespace {
 
+// Samples between the regular ones, and the light of all.
+void planExtra(LightPlanner& light) {
+  light.draw(Pass::Refine);
+  light.draw(Pass::Offsets);
+  for (int draw = 0; draw < light.draws(); ++draw) {
+    light.selectDraw(draw);
+    if (light.draws() > 1) rows::plan(light); // else they are at hand
+    light.draw(Pass::MarchExtra, {{}, {}, {Count::Marched}});
+  }
+  light.draw(Pass::Interpolate);
+}
+
 void planEpipolar(LightPlanner& light) {
+  if (slice_choice::isMade(light)) slice_choice::plan(light);
   light.selectDraw(0);
   light.draw(Pass::SampleEnds, {{{"KEEPS_ENDS", 0}}});
   if (light.draws() == 1) rows::plan(light);
@@ -48,24 +63,22 @@ void plan(LightPlanner& light, DebugView view) {
 }
 
 void planToInterpolate(LightPlanner& light) {
-  const auto forEachDraw = [&light](Pass march, const Counting& counting) {
-    for (int draw = 0; draw < light.draws(); ++draw) {
-      light.selectDraw(draw);
-      if (light.draws() > 1) rows::plan(light); // else they are at hand
-      light.draw(march, {{}, {}, counting});
-    }
-  };
+  const bool chosen = slice_choice::isMade(light); // and counted
   light.draw(Pass::Marks);
-  forEachDraw(Pass::March, {});
-  light.plan.marched += light.regularSamples * static_cast<std::uint64_t>(light.draws());
+  for (int draw = 0; draw < light.draws(); ++draw) {
+    light.selectDraw(draw);
+    if (light.draws() > 1) rows::plan(light);
+    light.draw(Pass::March);
+  }
+  if (!chosen) {
+    light.plan.marched += light.regularSamples * static_cast<std::uint64_t>(light.draws());
+    light.plan.slices += static_cast<std::uint64_t>(light.extent.slices);
+  }
   if (std::isfinite(light.frame.settings.spreadThreshold)) {
     light.draw(Pass::SliceSums);
     light.draw(Pass::MeanLight);
   }
-  light.draw(Pass::Refine);
-  light.draw(Pass::Offsets);
-  forEachDraw(Pass::MarchExtra, {Count::Marched});
-  light.draw(Pass::Interpolate);
+  planExtra(light);
 }
 
 } // namespace tyndall::passes::epipolar

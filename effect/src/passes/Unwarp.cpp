@@ -2,6 +2,7 @@
 
 #include "passes/Rows.h"
 #include "passes/Samples.h"
+#include "passes/SliceChoice.h"
 
 #include <cmath>
 
@@ -14,8 +15,10 @@ namespace {
 void planUnserved(LightPlanner& light, const Counting& counting) {
   const DrawOptions options{{}, kOnlyUnserved, counting};
   const bool ahead = !light.allocator.makes(); // another camera has other slices
+  const bool shares = slice_choice::tellsShares(light);
   if (light.draws() > 1 || ahead) samples::fixUp(light, Pass::FixupAllTexels, options);
-  if (light.draws() == 1 || ahead) samples::fixUp(light, Pass::FixupAlongRow, options);
+  if (shares && (light.draws() == 1 || ahead)) samples::fixUp(light, Pass::FixupByShares, options);
+  if ((!shares && light.draws() == 1) || ahead) samples::fixUp(light, Pass::FixupAlongRow, options);
 }
 
 // Those pixels and the many between slices that disagree: along their own line.

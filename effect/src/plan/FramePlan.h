@@ -143,6 +143,7 @@ struct FramePlan {
   /// Uniform blocks; the first stands for those that a draw does not read, since GL wants all of a program's bound.
   std::vector<std::vector<std::uint8_t>> blocks{std::vector<std::uint8_t>(kLargestBlock)};
   std::uint64_t marched = 0;   ///< rays that need no counting
+  std::uint64_t slices = 0;    ///< likewise, that are drawn
   double bandMilliseconds = 0; ///< longest that a draw, or what GL gets at once, may take; 0: no limit
 
   void skip(std::string pass, std::string why) { steps.emplace_back(Skip{std::move(pass), std::move(why)}); }

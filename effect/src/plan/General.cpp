@@ -48,12 +48,13 @@ bool isOfSunbeams(std::string_view fragment, const Values& values) {
          isOneOf(fragment, {"march", "marchExtra"});
 }
 
-// Lights without a map, low rank, the debug view of visits, pixels marched between slices, and mixtures.
+// Lights without a map, low rank, the debug view of visits, pixels marched between slices or where shares of the light
+// do not tell, and mixtures.
 bool isSeldom(std::string_view fragment, const Values& values) {
   if (!isOneOf(fragment, {"exact", "fixup", "march", "marchExtra", "pixelTree"})) return values["ROW_HASHES"] != 0;
   if (values["SHADOW_VIEWS"] == 0) return true;
   return isOneOf(fragment, {"fixup"}) || values["LOW_RANK"] != 0 || values["COUNT_VISITS"] != 0 ||
-         (isMixture(values) && !isOfSunbeams(fragment, values));
+         values["SHARES"] != 0 || (isMixture(values) && !isOfSunbeams(fragment, values));
 }
 
 // One view of an array may be the first of several: always where that costs little or is seldom asked for. A point
@@ -103,14 +104,18 @@ gl::Definitions general(const std::string& fragment, gl::Definitions definitions
     chooseMaps(fragment, values);
   if (isMixture(values) && !isOfSunbeams(fragment, values)) values.set("MONOCHROME", 0);
   // Where light only changes its measure all lamps are alike.
-  if (isOneOf(fragment, {"interpolate", "meanLight", "unwarp", "unwarpEdges", "tintGroups"}) &&
+  if (isOneOf(fragment,
+              {"interpolate", "marks", "meanLight", "refine", "sliceErrors", "unwarp", "unwarpEdges", "tintGroups"}) &&
       values["LIGHT_KIND"] == 2)
     values.set("LIGHT_KIND", 1);
   // Epipolar textures hold one channel, or three.
-  if (isOneOf(fragment, {"interpolate", "meanLight", "unwarp", "unwarpEdges"}) && values["GLASS"] != 0) {
+  if (isOneOf(fragment, {"interpolate", "marks", "meanLight", "refine", "sliceErrors", "unwarp", "unwarpEdges"}) &&
+      values["GLASS"] != 0) {
     values.set("GLASS", 0);
     values.set("MONOCHROME", 0);
   }
+  if (isOneOf(fragment, {"marks"}) && values["LIGHT_KIND"] != 0)
+    values.set("MONOCHROME", 0); // lamps' tell by ends alone
   if (values["MEAN_OF"] == 2)
     for (const char* name : {"LIGHT_KIND", "GLASS", "MONOCHROME"})
       values.set(name, 0);

@@ -7,8 +7,8 @@
 namespace tyndall {
 
 LightPlanner::LightPlanner(const PassPlanner& planner, const Frame& lit, const DrawnLight& drawn,
-                           const FrameTextures& textures)
-    : PassPlanner(planner), frame(lit), light(frame.lights[drawn.index]) {
+                           const FrameTextures& textures, const Limits& limits)
+    : PassPlanner(planner), frame(lit), light(frame.lights[drawn.index]), limits_(limits) {
   const FrameTextures::Shadow& map = textures.shadows[drawn.index];
   name = drawn.name;
   variant = drawn.variant;
@@ -66,9 +66,10 @@ void LightPlanner::readCopies() {
   board[Resource::GlassDepth] = board[Resource::GlassDepthCopy];
 }
 
-void LightPlanner::makeSlices(const Limits& limits) {
+void LightPlanner::makeSlices(optics::SliceSampling sampling) {
+  sampling.widest = limits_.textureSize;
   const Settings& settings = frame.settings;
-  geometry = optics::makeSlices(frame, light, layerSize_.width, layerSize_.height);
+  geometry = optics::makeSlices(frame, light, layerSize_.width, layerSize_.height, sampling);
   regularSamples = geometry.regularSamples;
   block = geometry.block;
   block.breakThreshold = settings.breakThreshold;
@@ -77,21 +78,21 @@ void LightPlanner::makeSlices(const Limits& limits) {
   block.leastWeight = settings.leastWeight;
   block.spreadThreshold = settings.spreadThreshold;
   block.averageThreshold = settings.averageThreshold;
-  extent.slices = geometry.slices;
+  extent.slices = geometry.drawn;
+  extent.candidateSlices = geometry.slices;
   extent.tableRows = geometry.rows;
-  extent.samples = settings.samples;
-  chooseRow(geometry.longestRow);
-  viewsPerDraw = chooseViewsPerDraw(limits);
+  extent.samples = sampling.samples;
+  chooseRow(geometry.longestRow, sampling.rowStep);
+  viewsPerDraw = chooseViewsPerDraw();
   extent.rowRoom = extent.slices * viewsPerDraw;
   extent.floatRows = block.rowCodeSteps == 0;
-  upload(Resource::SliceTable, geometry.texels);
+  upload(block.sliceTarget > 0 ? Resource::AllSlices : Resource::SliceTable, geometry.texels);
 }
 
 // Texels of a row and levels of its tree: the coarsest level keeps at least one node of each row, and four if it can.
 // Textures have room for the longest row that the map allows; drawn are as many texels as this frame's longest has.
-void LightPlanner::chooseRow(int longestRow) {
-  const int step = frame.settings.rowStep;
-  const int texels = unitsFor(std::max({mapSize_.width, mapSize_.height, 1}), step);
+void LightPlanner::chooseRow(int longestRow, int rowStep) {
+  const int texels = unitsFor(std::max({mapSize_.width, mapSize_.height, 1}), rowStep);
   int top = 2;
   while ((texels >> (2 * (top + 1))) >= 4)
     ++top;
@@ -107,10 +108,10 @@ void LightPlanner::chooseRow(int longestRow) {
 
 // Shadow views whose rows stand above one another in the row textures: all of a light's, so that rows are made once and
 // rays marched once; in equal parts where that would be too much, as for the six large faces of a lamp.
-int LightPlanner::chooseViewsPerDraw(const Limits& limits) const {
+int LightPlanner::chooseViewsPerDraw() const {
   constexpr std::int64_t kMostTexels = std::int64_t{24} << 20; // of all rows; 4 to 10 bytes each, with the tree
   const int all = std::max(views(), 1);
-  const std::int64_t most = std::min<std::int64_t>(kMostTexels / extent.rowTexels, limits.textureSize) / extent.slices;
+  const std::int64_t most = std::min<std::int64_t>(kMostTexels / extent.rowTexels, limits_.textureSize) / extent.slices;
   const int together = static_cast<int>(std::clamp<std::int64_t>(most, 1, all));
   const int parts = unitsFor(all, together);
   return unitsFor(all, parts);

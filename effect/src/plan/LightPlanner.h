@@ -30,15 +30,18 @@ struct Limits {
 class LightPlanner : public PassPlanner {
 public:
   /// `frame` has the light's own settings.
-  LightPlanner(const PassPlanner& planner, const Frame& frame, const DrawnLight& light, const FrameTextures& textures);
+  LightPlanner(const PassPlanner& planner, const Frame& frame, const DrawnLight& light, const FrameTextures& textures,
+               const Limits& limits);
 
   /// Has the maps copied, if passes read copies of them, unless those that the light had last hold the same.
   void copyMaps(const Board* last = nullptr);
   /// Those that the light had last, which hold the same.
   void takeCopies(const Board& last);
 
-  /// Slices of the light in the image and in its shadow map, on the CPU (Yusov 2013, "Generating epipolar lines").
-  void makeSlices(const Limits& limits);
+  /// Slices of the light in the image and in its shadow map, on the CPU (Yusov 2013, "Generating epipolar lines"): the
+  /// slice table or, where some of them may be left out, the table of all.
+  void makeSlices(optics::SliceSampling sampling);
+  void makeSlices() { makeSlices(optics::samplingOf(frame.settings)); }
 
   /// Has a texture of ours filled by the CPU.
   void upload(Resource resource, std::vector<glm::vec4> texels);
@@ -68,9 +71,10 @@ protected:
 
 private:
   void readCopies();
-  void chooseRow(int longestRow);
-  int chooseViewsPerDraw(const Limits& limits) const;
+  void chooseRow(int longestRow, int rowStep);
+  int chooseViewsPerDraw() const;
 
+  const Limits& limits_;
   std::vector<blocks::CopyBlock> copies_;
   int source_ = 0; // SOURCE of the copies
   int shadowViews_ = 0;

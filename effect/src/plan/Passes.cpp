@@ -1,6 +1,7 @@
 #include "plan/Passes.h"
 
 #include <algorithm>
+#include <tyndall/tyndall.h>
 
 namespace tyndall {
 
@@ -25,6 +26,7 @@ bool hasRowDepths(O o) {
 }
 bool hasTree(O o) { return hasRows(o) && (!o.has("TINT_SUMS") || hasPanes(o)); }
 bool hasLowRank(O o) { return !o.has("TINT_SUMS") || hasPanes(o); }
+bool isDirectional(O o) { return o.light.lightKind == static_cast<int>(LightKind::Directional); }
 bool isUnwarped(O o) { return !o.light.composite || !o.has("SPREAD"); }
 bool comparesRows(O o) { return hasRows(o) && o.has("ROW_HASHES") == o.light.hasShares(); }
 
@@ -219,7 +221,7 @@ std::vector<PassRow> makeRows() {
           .sameForAllLights(),
       Row(Pass::PixelTree, "pixels", "passes/march.frag", S::ImageOfMarch)
           .reads({R::SceneDepth, R::SliceTable})
-          .readsIfThere({R::SampleEnds}) // of the march, whose program it shares
+          .readsIfThere({R::SampleEnds, R::SliceBlocks}) // of the march, whose program it shares
           .walksRows()
           .into(Into::Destination)
           .joins(kSumOfLights),
@@ -231,6 +233,7 @@ std::vector<PassRow> makeRows() {
                   {R::TintSumsRed, "tintRed"},
                   {R::TintSumsGreen, "tintGreen"},
                   {R::TintSumsBlue, "tintBlue"}})
+          .readsIfThere({R::SliceBlocks})
           .walksRows()
           .into(Into::Destination)
           .joins(kSumOfLights)
@@ -238,9 +241,11 @@ std::vector<PassRow> makeRows() {
           .when(hasLowRank),
       Row(Pass::Marks, "marks", "passes/marks.frag", S::Slices)
           .reads({R::SliceTable, R::SampleEnds})
+          .readsIfThere({R::MeanLight})
           .writes({R::Marks}),
       Row(Pass::March, "march", "passes/march.frag", S::Segments)
           .reads({R::SceneDepth, R::SliceTable, R::SampleEnds})
+          .readsIfThere({R::SliceBlocks}) // of pixels, whose program it shares
           .walksRows()
           .writes({R::Marched})
           .joins(kSumOfDraws),
@@ -252,8 +257,46 @@ std::vector<PassRow> makeRows() {
           .reads({R::SliceSums})
           .writes({R::MeanLight})
           .options({{"MEAN_OF", {2}}}),
+      Row(Pass::SliceErrors, "slice errors", "passes/sliceErrors.frag")
+          .reads({R::SliceTable, R::SampleEnds, R::Marched, R::MeanLight})
+          .writes({R::SliceErrors}),
+      Row(Pass::SliceSpacing, "slice spacing", "passes/sliceSpacing.frag")
+          .reads({R::SliceErrors})
+          .writes({R::SliceSpacing})
+          .sameForAllLights(),
+      Row(Pass::SliceBudget, "slice budget", "passes/sliceBudget.frag")
+          .reads({R::SliceSpacing})
+          .writes({R::SliceBudget})
+          .sameForAllLights(),
+      Row(Pass::SliceBlocks, "slice blocks", "passes/sliceBlocks.frag")
+          .reads({R::SliceSpacing, R::SliceBudget})
+          .writes({R::SliceBlocks})
+          .sameForAllLights(),
+      Row(Pass::DrawnSlices, "drawn slices", "passes/drawnSlices.frag")
+          .reads({R::AllSlices, R::SliceBlocks})
+          .writes({R::SliceTable})
+          .sameForAllLights(),
+      Row(Pass::DrawnColumns, "drawn slices", "passes/drawnColumns.frag")
+          .reads({R::SliceBlocks})
+          .writes({R::ChangedSlices})
+          .sameForAllLights(),
+      Row(Pass::DrawnSegments, "drawn slices", "passes/drawnSegments.frag")
+          .reads({R::SliceTable, R::SliceBlocks})
+          .writes({R::ChangedSegments})
+          .sameForAllLights(),
+      Row(Pass::SliceEstimate, "slice estimate", "passes/sliceEstimate.frag")
+          .reads({R::SliceSpacing, R::SliceBlocks})
+          .writes({R::SliceEstimate})
+          .options({{"ESTIMATE", {1}}})
+          .sameForAllLights(),
+      Row(Pass::CountEstimate, "slice estimate", "passes/sliceEstimate.frag")
+          .reads({R::SliceEstimate})
+          .writes({R::EstimateCodes})
+          .options({{"ESTIMATE", {2, 3}}})
+          .sameForAllLights(),
       Row(Pass::Refine, "refine", "passes/refine.frag", S::Slices)
           .reads({R::SliceTable, R::Marks, R::Marched})
+          .readsIfThere({R::MeanLight})
           .writes({R::RefinedMarks}),
       Row(Pass::Offsets, "offsets", "passes/offsets.frag", S::Columns)
           .reads({{R::RefinedMarks, "marks"}})
@@ -276,13 +319,14 @@ std::vector<PassRow> makeRows() {
           .writes({R::EpipolarInscatter}),
       Row(Pass::Unwarp, "unwarp", "passes/unwarp.frag", S::Image)
           .reads({R::SceneDepth, R::SliceTable, R::EpipolarInscatter, R::MeanLight})
+          .readsIfThere({R::SliceBlocks})
           .into(Into::Destination)
           .joins(kSumOfLights)
           .options({{"SPREAD", {0, 1}}})
           .when(isUnwarped),
       Row(Pass::UnwarpEdges, "unwarp", "passes/unwarpEdges.frag", S::Image)
           .reads({R::SliceTable, R::EpipolarInscatter})
-          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples})
+          .readsIfThere({R::SliceBlocks, kDepthSideBySide, R::SceneDepthSamples})
           .writes({R::EdgeInscatter, R::EdgeTransmittance, R::EdgeRest}),
       Row(Pass::ServedEdges, "edges", "passes/edges.frag", S::Image)
           .reads({{R::EdgeRest, "sceneDepth"}})
@@ -312,9 +356,17 @@ std::vector<PassRow> makeRows() {
           .sameForAllLights(),
       Row(Pass::FixupAlongRow, "fix-up", "passes/march.frag", S::ImageOfMarch)
           .reads({R::SceneDepth, R::SliceTable, R::SampleEnds})
+          .readsIfThere({R::SliceBlocks})
           .walksRows()
           .into(Into::Destination)
           .joins(kSumOfLights),
+      Row(Pass::FixupByShares, "fix-up", "passes/march.frag", S::ImageOfMarch)
+          .reads({R::SceneDepth, R::SliceTable, R::SampleEnds, R::SliceBlocks, R::EpipolarInscatter, R::MeanLight})
+          .walksRows()
+          .into(Into::Destination)
+          .joins(kSumOfLights)
+          .options({{"SHARES", {1}}})
+          .when(isDirectional),
       Row(Pass::FixupAllTexels, "fix-up", "passes/exact.frag", S::Image)
           .readsIfThere({kDepthSideBySide, R::SceneDepthSamples}) // one of the two
           .walksTexels()
@@ -380,16 +432,19 @@ std::vector<PassRow> makeRows() {
           .when(hasRows),
       Row(Pass::DebugSlices, "debug view", "passes/debugSlices.frag")
           .reads({R::SliceTable})
+          .readsIfThere({R::SliceBlocks})
           .into(Into::DebugView)
           .sameForAllLights(),
       Row(Pass::DebugSamples, "debug view", "passes/debugSamples.frag", S::Samples)
           .reads({R::SliceTable, R::SampleEnds, R::Marks, R::RefinedMarks})
+          .readsIfThere({R::SliceBlocks})
           .into(Into::DebugView)
           .joins(Joining::AddAll)
           .sameForAllLights(),
       Row(Pass::DebugFixup, "debug view", "passes/red.frag", S::Image).into(Into::DebugView).sameForAllLights(),
       Row(Pass::DebugVisitsOfLight, "debug view", "passes/pixelTree.frag", S::Image)
           .reads({R::SceneDepth, R::SliceTable})
+          .readsIfThere({R::SliceBlocks})
           .walksRows()
           .into(Into::DebugView)
           .joins(Joining::AddAll)

@@ -210,14 +210,14 @@ void FramePlanner::planLights(const Frame& frame, const Destination& destination
   for (const DrawnLight& drawn : lights) {
     lit.settings = drawn.settings;
     passes.firstLight = &drawn == &lights.front();
-    LightPlanner light(passes, lit, drawn, in_.textures);
+    LightPlanner light(passes, lit, drawn, in_.textures, in_.limits);
     light.copyMaps();
     if (!usesSlices(frame)) {
       out_.plan.marched += light.pixels();
       light.drawLight(Pass::Exact, drawn.name, {});
       continue;
     }
-    light.makeSlices(in_.limits);
+    light.makeSlices();
     passes::epipolar::plan(light, passes.firstLight ? frame.settings.debugView : DebugView::Composite);
   }
   if (!lights.empty() && !in_.ahead) return;
@@ -286,7 +286,7 @@ LightPlanner FramePlanner::mapOf(std::size_t light) {
   const DrawnLight drawn{light,           nameOf(frame_, light),
                          frame_.settings, optics::lightBlock(frame_, frame_.lights[light], map.width, map.height),
                          map.copies,      variantOf(frame_, frame_.lights[light], passes_.variant.dualSource, false)};
-  LightPlanner planner{passes, frame_, drawn, in_.textures};
+  LightPlanner planner{passes, frame_, drawn, in_.textures, in_.limits};
   planner.copyMaps();
   return planner;
 }

@@ -2,6 +2,7 @@
 
 #include "Rounding.h"
 #include "SharedBlocks.h"
+#include "optics/Slices.h"
 
 #include <tyndall/tyndall.h>
 
@@ -58,6 +59,11 @@ Size segmentEnds(E e) { return {e.slices, e.samples / kSegmentSamples + 1}; }
 Size twos(E e) { return {e.slices, e.samples / 2}; }
 Size slices(E e) { return {e.slices, 1}; }
 Size one(E) { return {1, 1}; }
+Size candidateSlices(E e) { return {e.candidateSlices, e.tableRows}; }
+Size blocks(E e) { return {e.candidateSlices / optics::kSliceBlock, 1}; }
+Size blocksAndSum(E e) { return {e.candidateSlices / optics::kSliceBlock + 1, 1}; }
+Size budgets(E) { return {SLICE_BUDGETS, 1}; }
+Size codes(E) { return {ESTIMATE_CODES, 1}; }
 Size imageRows(E e) { return {e.height, 1}; }
 
 Size mapCopy(E e) { return e.mapCopy; }
@@ -131,6 +137,8 @@ constexpr ResourceRow kRows[] = {
     {"stand in transmittance", kGiven, kGiven, always, always, image, image, Lifetime::Frame, "the same"},
     {"slice table", kRgba32, kRgba32, always, always, table, table, Lifetime::Light,
      "the slices' geometry, computed in double", "slice table"},
+    {"all slices", kRgba32, kRgba32, always, always, candidateSlices, candidateSlices, Lifetime::Frame,
+     "the same where not all are drawn (Settings::errorTarget)", "slice table"},
     {"sample ends", kR32, kR32, always, always, samples, samples, Lifetime::Compared,
      "distance along the camera ray; float, for breaks and the march", "sample ends"},
     {"marks", kUnorm4, kUnorm4, always, always, chunks, chunks, Lifetime::Frame, "four masks of 16 samples", "marks"},
@@ -140,6 +148,18 @@ constexpr ResourceRow kRows[] = {
      "light of the regular march samples, in no unit (lib/stored.glsl)", "marched"},
     {"slice sums", kRg32, kRg32, always, always, slices, slices, Lifetime::Frame, "inscatter over each slice", "sums"},
     {"mean light", kR32, kR32, always, always, one, one, Lifetime::Frame, "the picture's mean inscatter", "sums"},
+    {"slice errors", kRgba32, kRgba32, always, always, slices, slices, Lifetime::Frame,
+     "Settings::errorTarget: what slices differ by from what others lead to expect", "sums"},
+    {"slice spacing", kRgba32, kRgba32, always, always, blocks, blocks, Lifetime::Frame,
+     "the same: the error expected of eight with one, and how fast it falls", "sums"},
+    {"slice budget", kR32, kR32, always, always, budgets, budgets, Lifetime::Frame,
+     "the same: slices that targets take", "flags"},
+    {"slice blocks", kRgba32, kRgba32, always, always, blocksAndSum, blocksAndSum, Lifetime::Frame,
+     "the same: the columns of eight slices", "flags"},
+    {"slice estimate", kRg32, kRg32, always, always, one, one, Lifetime::Frame,
+     "the same: what the picture is off by for want of slices", "sums"},
+    {"estimate codes", kR8, kR8, always, always, codes, codes, Lifetime::Frame, "the same, as fragments to be counted",
+     "flags"},
     {"extra offsets", kR32, kR32, always, always, chunksAndSum, chunksAndSum, Lifetime::Frame,
      "where a chunk's extra samples are packed", "extra offsets"},
     {"extra", kRgba16, kRg32, coloured, always, twos, twos, Lifetime::Frame,

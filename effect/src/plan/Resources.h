@@ -39,12 +39,19 @@ enum class Resource {
   StandInInscatter,
   StandInTransmittance,
   SliceTable,
+  AllSlices,
   SampleEnds,
   Marks,
   RefinedMarks,
   Marched,
   SliceSums,
   MeanLight,
+  SliceErrors,
+  SliceSpacing,
+  SliceBudget,
+  SliceBlocks,
+  SliceEstimate,
+  EstimateCodes,
   ExtraOffsets,
   Extra,
   ExtraSecond,
@@ -98,6 +105,7 @@ struct Size {
 struct Extent {
   int width = 0, height = 0; ///< of the image
   int slices = 0, samples = 0, tableRows = 0;
+  int candidateSlices = 0;        ///< from which those are chosen
   int rowTexels = 0, rowRoom = 0; ///< texels of a row and rows that row textures have room for
   int drawnTexels = 0, rows = 0;  ///< those of this frame, and of the draw that is selected
   int treeLevels = 0;

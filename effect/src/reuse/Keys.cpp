@@ -27,7 +27,7 @@ bool same(const Block& a, const Block& b) {
 auto fieldsOf(const Settings& s) {
   return std::tie(s.technique, s.debugView, s.shadowFilter, s.slices, s.samples, s.rowStep, s.minMaxTree,
                   s.breakThreshold, s.bendThreshold, s.leastWeight, s.averageThreshold, s.spreadThreshold,
-                  s.lowRankTerms, s.sampleBudget);
+                  s.errorTarget, s.lowRankTerms, s.sampleBudget);
 }
 
 auto fieldsOf(const LightVariant& v) {

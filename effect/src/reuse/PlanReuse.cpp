@@ -111,13 +111,13 @@ void FramePlanner::planReused(const std::vector<DrawnLight>& drawn, RedrawPlan r
 
 // Of the lights' slices and of the picture what has changed, which the mask holds.
 FramePlanner::Mask FramePlanner::planParts(const std::vector<DrawnLight>& drawn, RedrawPlan& redraw, KeptNext& next) {
-  reuse::Redrawing redrawing{in_.limits, *in_.eye, in_.counts, {}};
+  reuse::Redrawing redrawing{*in_.eye, in_.counts, {}};
   Lights lights;
   Frame lit = frame_;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     lit.settings = drawn[i].settings;
     passes_.firstLight = i == 0;
-    lights.push_back(std::make_unique<LightPlanner>(passes_, lit, drawn[i], in_.textures));
+    lights.push_back(std::make_unique<LightPlanner>(passes_, lit, drawn[i], in_.textures, in_.limits));
     reuse::planSlices(*lights.back(), redraw.lights[i], redrawing);
     next.lights.emplace_back(drawn[i].index, reuse::keptOf(*lights.back(), redraw.lights[i]));
   }

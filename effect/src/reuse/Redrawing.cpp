@@ -146,7 +146,7 @@ void planSlices(LightPlanner& light, LightRedraw& redraw, Redrawing& frame) {
     return;
   }
   light.copyMaps(kept.last && hasCopies(light, redraw, kept) ? &kept.last->board : nullptr);
-  light.makeSlices(frame.limits);
+  light.makeSlices();
   if (light.draws() > 1) redraw.redraw = Redraw::All; // rows are not at hand together, nor kept
   if (redraw.redraw == Redraw::All || !kept.last)
     planAll(light, frame);

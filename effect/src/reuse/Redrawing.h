@@ -9,7 +9,6 @@ namespace tyndall::reuse {
 
 /// What redrawing needs of the frame.
 struct Redrawing {
-  const Limits& limits;
   KeptEye& eye;
   bool counts;       ///< queries may be used
   RedrawCount count; ///< of the lights so far

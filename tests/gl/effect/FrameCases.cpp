@@ -68,6 +68,19 @@ void addInputs(std::vector<FrameCase>& all) {
   FrameCase spread = make("epipolar, spread", Technique::Epipolar, kColour, {kSun, kSpot});
   spread.spread = true;
   all.push_back(spread);
+  FrameCase chosen = make("epipolar, error target", Technique::Epipolar);
+  chosen.chosen = true;
+  all.push_back(chosen);
+  chosen = make("epipolar, error target, two lights, all targets", Technique::Epipolar, kAll, {kSun, kSpot});
+  chosen.chosen = chosen.bilinear = chosen.glass = true;
+  all.push_back(chosen);
+  chosen = make("epipolar, error target, lamp in parts", Technique::Epipolar, kColour, {kLamp});
+  chosen.chosen = true;
+  chosen.maxTextureSize = 64;
+  all.push_back(chosen);
+  chosen = make("epipolar, error target, multisampled depth", Technique::Epipolar);
+  chosen.chosen = chosen.multisampled = true;
+  all.push_back(chosen);
   FrameCase bright = make("epipolar, sum over what colour holds", Technique::Epipolar, kAll, {kSun, kSpot});
   bright.bright = true;
   all.push_back(bright);
@@ -304,6 +317,7 @@ Stage::Stage(const FrameCase& frameCase, int width, int height, RigContext conte
   settings.samples = 64;
   settings.shadowFilter = case_.bilinear ? ShadowFilter::Bilinear : ShadowFilter::Nearest;
   if (case_.spread) settings.spreadThreshold = 0.02F;
+  if (case_.chosen) settings.errorTarget = 0.02F;
   if (case_.multisampled) {
     const std::vector<float> depth = rig_.scene.depth();
     rig_.scene.setMultisampledDepth(4, GL_DEPTH_COMPONENT24, [&](int pixel, int sample) {

@@ -17,6 +17,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/EpipolarSymmetryTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EpipolarTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EpipolePositionTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/ErrorTargetTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ExactTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FakeContext.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FaultSweep.cpp

@@ -97,6 +97,7 @@ void makeSettings(Case& made, const AxisSet& simple) {
     settings.averageThreshold = static_cast<float>(random.pick({0.0, 1.0, random.uniform()}));
     if (spreads) settings.spreadThreshold = static_cast<float>(random.logUniform(1e-6, 10));
     settings.sampleBudget = random.chance(0.3) ? static_cast<int>(random.logUniform(4096, 1e7)) : 0;
+    if (random.chance(0.4)) settings.errorTarget = static_cast<float>(random.logUniform(1e-6, 1));
   }
 }
 

@@ -197,6 +197,7 @@ tyndall::Settings settingsOf(Numbers& numbers) {
   settings.leastWeight = static_cast<float>(mostly(numbers, 0, 1));
   settings.averageThreshold = static_cast<float>(mostly(numbers, 0, 1));
   if (numbers.flag()) settings.spreadThreshold = static_cast<float>(scaled(numbers, -4, 1));
+  if (numbers.below(4) == 0) settings.errorTarget = static_cast<float>(mostly(numbers, 0, 1));
   settings.lowRankTerms = whole(numbers, 1, 8);
   if (numbers.below(4) == 0) settings.sampleBudget = whole(numbers, 4096, 1 << 20);
   return settings;

@@ -100,6 +100,7 @@ void Engine::tellFacts() {
   const Settings& s = state_.settings;
   everything.add(s.debugView).add(s.shadowFilter).add(s.slices).add(s.samples).add(s.rowStep).add(s.minMaxTree);
   everything.add(s.averageThreshold).add(s.leastWeight).add(s.bendThreshold).add(s.sampleBudget).add(s.spreadThreshold);
+  everything.add(s.errorTarget);
   everything.add(state_.depthLayout).add(state_.depthFormat);
   everything.add(state_.colour || state_.inscatter).add(state_.colourFormat).add(state_.outputFormat); // lights' use
   for (const LightState& light : state_.lights) {

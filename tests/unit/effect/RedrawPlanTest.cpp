@@ -134,7 +134,7 @@ TEST_CASE("slices that are refreshed in turn are drawn though nothing has change
 
 // Structured bindings count the fields: one more does not compile until it has a line here.
 TEST_CASE("no setting may change unseen") {
-  [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = Settings{};
+  [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = Settings{};
   const std::vector<void (*)(Settings&)> changes = {[](Settings& s) { s.technique = Technique::Exact; },
                                                     [](Settings& s) { s.debugView = DebugView::Redrawn; },
                                                     [](Settings& s) { s.shadowFilter = ShadowFilter::Bilinear; },
@@ -147,9 +147,10 @@ TEST_CASE("no setting may change unseen") {
                                                     [](Settings& s) { s.leastWeight = 1; },
                                                     [](Settings& s) { s.averageThreshold = 1; },
                                                     [](Settings& s) { s.spreadThreshold = 1; },
+                                                    [](Settings& s) { s.errorTarget = 0.5F; },
                                                     [](Settings& s) { s.lowRankTerms = 8; },
                                                     [](Settings& s) { s.sampleBudget = 5000; }};
-  CHECK(changes.size() == 14);
+  CHECK(changes.size() == 15);
   for (std::size_t change = 0; change < changes.size(); ++change) {
     CAPTURE(change);
     FrameKey frame, otherFrame;

@@ -39,6 +39,7 @@ Extent randomExtent(std::mt19937& random) {
   e.width = within(1, 3000);
   e.height = within(1, 2000);
   e.slices = within(1, 2000);
+  e.candidateSlices = 8 * within(1, 500);
   e.samples = 64 * within(1, 16);
   e.tableRows = 2 + 2 * within(0, 6);
   e.treeLevels = within(2, 5);
