@@ -82,6 +82,9 @@ nlohmann::ordered_json statisticsOf(const FrameStatistics& frame, const Options&
                                  {"passes", passesOf(measurement.statistics.passes)},
                                  {"marched_samples", measurement.statistics.marchedSamples},
                                  {"fixup_pixels", measurement.statistics.fixupPixels},
+                                 {"drawn_slices", measurement.statistics.drawnSlices},
+                                 {"error_estimate", measurement.statistics.errorEstimate},
+                                 {"share_over_target", measurement.statistics.shareOverTarget},
                                  {"redrawn_share", measurement.statistics.redrawnShare}};
   if (!measurement.volumeShadows.empty()) json["avsm"] = volumeShadowsOf(measurement.volumeShadows);
   return json;

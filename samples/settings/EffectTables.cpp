@@ -98,6 +98,10 @@ std::vector<Setting<Settings>> thresholdRows() {
       number("averageThreshold", &Settings::averageThreshold, from(0, 1),
              "optical depth of a stretch of a row that is taken by its average")
           .withOption("--average-threshold"),
+      number("errorTarget", &Settings::errorTarget, from(0, 1),
+             "error, as a part of the mean inscatter, for which slices are left out; 0: none is")
+          .withOption("--error-target")
+          .withSlider(0.001, 0.2, true),
       number("spreadThreshold", &Settings::spreadThreshold, also(tyndall::kInfinity, above(0, kMostThreshold)),
              "spread of the samples around a pixel over which it is marched by itself")
           .withOption("--spread-threshold")

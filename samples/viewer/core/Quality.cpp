@@ -43,6 +43,7 @@ void hasten(tyndall::Settings& settings, tyndall::Profile profile) {
   settings.bendThreshold = std::max(settings.bendThreshold, fast.bendThreshold);
   settings.leastWeight = std::min(settings.leastWeight, fast.leastWeight);
   settings.spreadThreshold = fast.spreadThreshold;
+  settings.errorTarget = std::max(settings.errorTarget, fast.errorTarget);
   settings.minMaxTree = true;
   if (settings.debugView == tyndall::DebugView::Difference) settings.debugView = tyndall::DebugView::Composite;
 }

@@ -110,7 +110,18 @@ TEST_CASE("tyndall-render writes statistics") {
     CHECK(pass.contains("name") != (pass.contains("ms") == pass.contains("skipped")));
   CHECK(stats.at("marched_samples") == kSize * kSize);
   CHECK(stats.at("fixup_pixels") == 0);
-  CHECK(stats.size() == 11);
+  for (const char* none : {"drawn_slices", "error_estimate", "share_over_target"})
+    CHECK(stats.at(none) == 0);
+  CHECK(stats.size() == 14);
+}
+
+TEST_CASE("tyndall-render says what an error target brought") {
+  const tests::ToolFolder folder;
+  REQUIRE(folder.run(viewWith({"--error-target", "0.02", "--stats", "s.json"})).exitCode == 0);
+  const nlohmann::json stats = nlohmann::json::parse(folder.read("s.json"));
+  CHECK(stats.at("drawn_slices") > 0);
+  CHECK(stats.at("error_estimate") > 0);
+  CHECK(stats.at("share_over_target") <= 1);
 }
 
 TEST_CASE("tyndall-render draws in bands the picture of whole draws, and its statistics tell the longest") {
