@@ -63,8 +63,9 @@ TEST_CASE("the exponent of a power law is found") {
 TEST_CASE("technique names") {
   CHECK(bench::parseTechnique("froxels:8x9x10").parameters == std::vector<int>{8, 9, 10});
   CHECK(bench::parseTechnique("epipolar:512x640").family == "epipolar");
+  CHECK(bench::settingsFor(bench::parseTechnique("target:25")).errorTarget == 0.025F);
   for (const char* name : {"", "fixed", "fixed:", "fixed:0", "fixed:16x", "fixed:16x16", "fixed:-4", "exact:1",
-                           "froxels:8x9", "epipolar:512x100", "nothing", "high:"})
+                           "froxels:8x9", "epipolar:512x100", "target", "target:0", "target:1001", "nothing", "high:"})
     CHECK_THROWS_AS(bench::parseTechnique(name), std::invalid_argument);
   for (const std::string& name : bench::allTechniques())
     CHECK_NOTHROW(bench::parseTechnique(name));

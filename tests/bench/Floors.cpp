@@ -231,6 +231,7 @@ PassFloor sumOf(const std::vector<PassFloor>& passes) {
 
 std::string reasonAgainstFloors(const tyndall::Frame& frame) {
   if (frame.settings.technique != tyndall::Technique::Epipolar) return "it is not technique Epipolar";
+  if (frame.settings.errorTarget > 0) return "its slices are chosen";
   if (frame.lights.size() != 1) return "it has not one light";
   const tyndall::Light& light = frame.lights[0];
   if (light.kind != tyndall::LightKind::Directional) return "its light is not directional";

@@ -186,6 +186,11 @@ Json resultOf(const Result& r) {
   json["bytes"] = r.bytes;
   json["peak_memory"] = r.peakMemory;
   if (r.counts) json["rays"] = r.counts->rays;
+  if (r.counts && r.counts->errorEstimate > 0) {
+    json["slices"] = r.counts->slices;
+    json["error_estimate"] = r.counts->errorEstimate;
+    json["share_over_target"] = r.counts->shareOverTarget;
+  }
   if (r.counts && r.counts->visitsPerRay) {
     json["visits_per_ray"] = *r.counts->visitsPerRay;
     json["visits_estimate"] = *r.counts->visitsEstimate();

@@ -25,6 +25,7 @@ constexpr Family kFamilies[] = {
     {"balanced", Group::Ours, 0, 0, 0, 0, "the effect's profile"},
     {"performance", Group::Ours, 0, 0, 0, 0, "the effect's profile"},
     {"epipolar", Group::Ours, 1, 2, 1, 8192, "the effect with :SLICES or :SLICESxSAMPLES, else as profile high"},
+    {"target", Group::Ours, 1, 1, 1, 1000, "the effect as profile high, for an error of :N thousandths of the mean"},
     {"fixed", Group::Shipping, 1, 1, 1, 4096, ":N steps a pixel with interleaved gradient noise"},
     {"half", Group::Shipping, 1, 1, 1, 4096, ":N steps at half resolution, blurred and upsampled by depth"},
     {"froxels", Group::Shipping, 1, 3, 1, 1024, ":D for 160x90xD, or :WxHxD"},
@@ -125,6 +126,10 @@ tyndall::Settings settingsFor(const Technique& technique) {
     if (!technique.parameters.empty()) settings.lowRankTerms = technique.parameters[0];
     return settings;
   }
+  if (technique.family == "target") {
+    settings.errorTarget = 1e-3F * static_cast<float>(technique.parameters[0]);
+    return settings;
+  }
   if (!technique.parameters.empty()) settings.slices = technique.parameters[0];
   if (technique.parameters.size() > 1) settings.samples = technique.parameters[1];
   return settings;
@@ -180,6 +185,9 @@ public:
     Counts counts;
     counts.rays = statistics.marchedSamples;
     counts.fixupPixels = statistics.fixupPixels;
+    counts.slices = statistics.drawnSlices;
+    counts.errorEstimate = statistics.errorEstimate;
+    counts.shareOverTarget = statistics.shareOverTarget;
     if (settings_.technique == tyndall::Technique::Exact) return counts;
     renderBy(*counting, frame, tyndall::DebugView::NodeVisits);
     counts.visitsPerRay = counting->statistics().visitsPerRay;

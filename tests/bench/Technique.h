@@ -34,9 +34,11 @@ std::vector<std::string> allTechniques();
 
 /// What a frame takes, in numbers that no machine changes.
 struct Counts {
-  std::uint64_t rays = 0;             ///< integrated; up to two extra march samples count as one
-  std::uint64_t fixupPixels = 0;      ///< among them
-  double packedRays = 0;              ///< of extra march samples, about: the sides of a break share one
+  std::uint64_t rays = 0;                        ///< integrated; up to two extra march samples count as one
+  std::uint64_t fixupPixels = 0;                 ///< among them
+  double packedRays = 0;                         ///< of extra march samples, about: the sides of a break share one
+  std::uint64_t slices = 0;                      ///< of all lights
+  double errorEstimate = 0, shareOverTarget = 0; ///< with an error target
   std::optional<double> visitsPerRay; ///< nodes and groups of texels that a pixel's ray looks at, of the first light
 
   /// Visits per ray times rays: march samples see what pixels see only about.
