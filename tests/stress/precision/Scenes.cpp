@@ -80,6 +80,7 @@ void growLeaves(tests::ShaftRig& rig, int size) {
 void addPlain(std::vector<Scene>& all) {
   const auto bilinear = [](tests::ShaftRig& rig) { rig.scene.frame.settings.shadowFilter = ShadowFilter::Bilinear; };
   const auto spread = [](tests::ShaftRig& rig) { rig.scene.frame.settings.spreadThreshold = 0.02F; };
+  const auto target = [](tests::ShaftRig& rig) { rig.scene.frame.settings.errorTarget = 0.02F; };
   const auto leaves = [](tests::ShaftRig& rig) { growLeaves(rig, 1024); };
   const auto filteredLeaves = [bilinear, leaves](tests::ShaftRig& rig) {
     bilinear(rig);
@@ -97,6 +98,8 @@ void addPlain(std::vector<Scene>& all) {
            Recipe{"spot, bilinear", kSpot, Technique::Epipolar, false, false, bilinear},
            Recipe{"sun, spread", kSun, Technique::Epipolar, false, false, spread},
            Recipe{"spot, spread", kSpot, Technique::Epipolar, true, false, spread},
+           Recipe{"sun, error target", kSun, Technique::Epipolar, false, false, target},
+           Recipe{"spot, error target", kSpot, Technique::Epipolar, true, false, target},
            Recipe{"sun, tree", kSun, Technique::Tree},
            Recipe{"spot, tree, glass", kSpot, Technique::Tree, false, true},
            Recipe{"sun, low rank", kSun, Technique::LowRank},
