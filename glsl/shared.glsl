@@ -14,6 +14,7 @@
 #define ESTIMATE_CODES 512  // fragments that stand for the most that sliceEstimate.frag can say: so many for a share of 1, or
 #define ESTIMATE_LEAST 384  // for an error 2^((fragments - ESTIMATE_LEAST) / ESTIMATE_OCTAVE)
 #define ESTIMATE_OCTAVE 16
+#define SLICE_BLOCK 8 // slices of a block, of which some are drawn (lib/slices.glsl)
 #define SLICE_BUDGETS 96 // targets that are tried (lib/sliceSpacing.glsl); the last one is met by every picture
 #define LAMP_PIXELS 32.0 // around a lamp in the image, where every pixel is marched by itself: its light is brightest there
 

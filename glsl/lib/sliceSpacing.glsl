@@ -8,7 +8,7 @@ vec4 spacingOf(int block) { return texelFetch(sliceSpacing, ivec2(block, 0), 0);
 
 int slicesFor(vec4 spacing, float target) {
   int drawn = int(spacing.w);
-  for (float error = spacing.x; drawn < kBlock && error > target * target; error /= spacing.y) drawn *= 2;
+  for (float error = spacing.x; drawn < SLICE_BLOCK && error > target * target; error /= spacing.y) drawn *= 2;
   return drawn;
 }
 

@@ -34,9 +34,8 @@ float sliceCoordinate(vec2 p) {
 // evenly apart from its first on. Columns of epipolar textures are those that are drawn, in their order. Of each block: its first
 // column, slices that are drawn of it, the column that follows; behind all blocks, how many columns there are. Width: blocks + 1.
 uniform sampler2D sliceBlocks;
-const int kBlock = 8;
 
-int drawnColumns() { return sliceTarget > 0.0 ? int(texelFetch(sliceBlocks, ivec2(candidateSlices / kBlock, 0), 0).r) : sliceCount; }
+int drawnColumns() { return sliceTarget > 0.0 ? int(texelFetch(sliceBlocks, ivec2(candidateSlices / SLICE_BLOCK, 0), 0).r) : sliceCount; }
 
 // With a closed border the last slice neighbours the first; at an open one the last stands for those beyond.
 int wrapped(int column, int columns) { return slicesClosed != 0 ? (column + columns) % columns : clamp(column, 0, columns - 1); }
@@ -58,11 +57,11 @@ struct SlicePair {
 SlicePair slicesAround(float coordinate) {
   if (sliceTarget == 0.0) return SlicePair(neighbourSlices(coordinate), coordinate - floor(coordinate), 1);
   float x = coordinate < 0.0 && slicesClosed != 0 ? coordinate + float(candidateSlices) : max(coordinate, 0.0);
-  int block = min(int(x) / kBlock, candidateSlices / kBlock - 1);
+  int block = min(int(x) / SLICE_BLOCK, candidateSlices / SLICE_BLOCK - 1);
   ivec3 own = ivec3(texelFetch(sliceBlocks, ivec2(block, 0), 0).rgb);
-  float place = (x - float(kBlock * block)) * float(own.y) / float(kBlock);
+  float place = (x - float(SLICE_BLOCK * block)) * float(own.y) / float(SLICE_BLOCK);
   int before = min(int(place), own.y - 1), low = own.x + before;
-  return SlicePair(ivec2(low, before + 1 < own.y ? low + 1 : own.z), min(place - float(before), 1.0), kBlock / own.y);
+  return SlicePair(ivec2(low, before + 1 < own.y ? low + 1 : own.z), min(place - float(before), 1.0), SLICE_BLOCK / own.y);
 }
 
 int nearestSlice(float coordinate) {

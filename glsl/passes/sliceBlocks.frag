@@ -8,7 +8,7 @@ uniform sampler2D sliceBudget;
 layout(location = 0) out vec4 outBlock;
 
 void main() {
-  int block = int(gl_FragCoord.x), blocks = candidateSlices / kBlock, step = 0;
+  int block = int(gl_FragCoord.x), blocks = candidateSlices / SLICE_BLOCK, step = 0;
   while (step < SLICE_BUDGETS - 1 && int(texelFetch(sliceBudget, ivec2(step, 0), 0).r) > sliceCount) ++step;
   float target = budgetTarget(step);
   int first = 0, own = 0;

@@ -8,6 +8,6 @@ layout(location = 0) out vec4 outSlices;
 
 void main() {
   int slices = 0;
-  for (int block = 0; block < candidateSlices / kBlock; ++block) slices += slicesFor(spacingOf(block), budgetTarget(int(gl_FragCoord.x)));
+  for (int block = 0; block < candidateSlices / SLICE_BLOCK; ++block) slices += slicesFor(spacingOf(block), budgetTarget(int(gl_FragCoord.x)));
   outSlices = vec4(float(slices), 0.0, 0.0, 0.0);
 }

@@ -44,10 +44,8 @@ void addSlice(int slice, Sample own, inout Sums sums) {
     int index = 16 * (segment + k);
     if (float(index) > line.w) continue;
     float end = sampleAt(slice, index).coordinate, weight = 0.5 * max(1.0 - abs(y - float(segment + k)), 0.0);
-    float agreement = min(1.0, endThreshold / max(abs(end - own.coordinate), 1e-20));
-    agreement *= agreement;
     vec3 light = texelFetch(marched, ivec2(slice, segment + k), 0).rgb;
-    sums.agreeing += weight * agreement * agreement * vec4(light, 1.0);
+    sums.agreeing += weight * agreementOf(end, own.coordinate) * vec4(light, 1.0);
     sums.plain += weight * vec4(light, end);
     sums.plainWeight += weight;
   }
@@ -64,9 +62,7 @@ vec2 errorOf(Sample own, vec3 light, int slice, int apart) {
   Sums sums = Sums(vec4(0.0), vec4(0.0), 0.0);
   addSlice(neighbourOf(slice, -apart), own, sums);
   addSlice(neighbourOf(slice, apart), own, sums);
-  float off = abs(sums.plain.a - own.coordinate * sums.plainWeight), allowed = 0.125 * endThreshold * sums.plainWeight;
-  float oneSurface = clamp(2.0 - off / max(allowed, 1e-20), 0.0, 1.0);
-  vec4 sum = mix(sums.agreeing, vec4(sums.plain.rgb, sums.plainWeight), oneSurface);
+  vec4 sum = lightOfSums(sums.agreeing, sums.plain, sums.plainWeight, own.coordinate);
   float area = length(epipole.z * own.position - epipole.xy);
   if (isNearLight(own.position) || !isServed(sum) || !(area < 1e18)) return vec2(0.0);
   float error = brightestOf(abs(radianceUnit(own.ray) * lightOf(sum.rgb / sum.w - light))) / max(texelFetch(meanLight, ivec2(0), 0).r, 1e-37);

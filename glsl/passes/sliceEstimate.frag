@@ -11,7 +11,7 @@ layout(location = 0) out vec4 outEstimate;
 
 void main() {
   vec3 sum = vec3(0.0);
-  for (int block = 0; block < candidateSlices / kBlock; ++block) {
+  for (int block = 0; block < candidateSlices / SLICE_BLOCK; ++block) {
     vec4 own = spacingOf(block);
     float error = errorWith(own, int(texelFetch(sliceBlocks, ivec2(block, 0), 0).g));
     sum += own.z * vec3(error, 1.0, error > sliceTarget * sliceTarget ? 1.0 : 0.0);

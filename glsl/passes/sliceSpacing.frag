@@ -13,12 +13,12 @@ const float kOfMiddle = 0.6;
 const int kAround = 2; // blocks on either side whose slices count: one tells little
 
 void main() {
-  int block = int(gl_FragCoord.x), blocks = candidateSlices / kBlock;
+  int block = int(gl_FragCoord.x), blocks = candidateSlices / SLICE_BLOCK;
   vec4 sum = vec4(0.0);
   for (int i = -kAround; i <= 1 + kAround; ++i) sum += texelFetch(sliceErrors, ivec2(wrapped(block + i, blocks), 0), 0);
   vec2 errors = sum.xz / max(sum.yw, vec2(1e-30)); // squares, of neighbours two blocks apart and four
   // By this much they fall where the slices are half as far apart: at edges by 2, where light is smooth by 16.
   float falls = clamp(errors.y / max(errors.x, 1e-30), 2.0, 16.0);
   bool isLast = slicesClosed == 0 && block == blocks - 1; // nothing lies behind it
-  outSpacing = vec4(kOfMiddle * errors.x / falls, falls, sum.y, isLast ? float(kBlock) : 1.0);
+  outSpacing = vec4(kOfMiddle * errors.x / falls, falls, sum.y, isLast ? float(SLICE_BLOCK) : 1.0);
 }

@@ -44,9 +44,7 @@ void addSlice(int slice, float sliceWeight, vec2 p, float end, inout Sums sums) 
   for (int k = 0; k < 2; ++k) {
     vec4 texel = texelFetch(epipolarInscatter, ivec2(slice, low + k), 0);
     float weight = sliceWeight * (k == 0 ? 1.0 - f : f), sampleEnd = storedCoordinate(texel);
-    float agreement = min(1.0, endThreshold / max(abs(sampleEnd - end), 1e-20));
-    agreement *= agreement;
-    float agreeing = weight * agreement * agreement;
+    float agreeing = weight * agreementOf(sampleEnd, end);
     sums.agreeing += agreeing * vec4(texel.rgb, 1.0);
 #if SPREAD
     float brightest = brightestOf(lightOf(texel.rgb) * spreadUnit);
@@ -64,11 +62,7 @@ vec4 lightTo(float end, Ray ray, vec2 position, float place) {
   Sums sums = Sums(vec4(0.0), vec4(0.0), 0.0, 0.0);
   addSlice(pair.columns.x, 1.0 - pair.share, position, coordinate, sums);
   addSlice(pair.columns.y, pair.share, position, coordinate, sums);
-  // Where the samples' ends lead to the pixel's, one surface runs through all of them: to leave out those that
-  // differ more, towards a horizon, say, would only pull to one side.
-  float apart = abs(sums.plain.a - coordinate * sums.plainWeight), allowed = 0.125 * endThreshold * sums.plainWeight;
-  float oneSurface = clamp(2.0 - apart / max(allowed, 1e-20), 0.0, 1.0);
-  vec4 sum = mix(sums.agreeing, vec4(sums.plain.rgb, sums.plainWeight), oneSurface);
+  vec4 sum = lightOfSums(sums.agreeing, sums.plain, sums.plainWeight, coordinate);
 #if SPREAD
   // Samples that agree with the pixel but not with each other: edges of shadows run between them.
   float least = spreadThreshold * sums.agreeing.w, brightest = brightestOf(lightOf(sums.agreeing.rgb) * spreadUnit);

@@ -217,10 +217,10 @@ constexpr float kLeastTarget = 1e-4F; // no picture comes as near as that: for l
 
 // Slices from which those that are drawn are chosen; 0: all are.
 int candidatesOf(const Frame& frame, int visibleSlices, int widest) {
-  constexpr int kFewest = 4 * kSliceBlock; // fewer are no choice
+  constexpr int kFewest = 4 * SLICE_BLOCK; // fewer are no choice
   const int slices = frame.settings.slices;
   if (!mayChooseSlices(frame) || std::min({slices, visibleSlices, widest}) < kFewest) return 0;
-  return std::min(roundedUp(std::min(2 * slices, visibleSlices), kSliceBlock), widest / kSliceBlock * kSliceBlock);
+  return std::min(roundedUp(std::min(2 * slices, visibleSlices), SLICE_BLOCK), widest / SLICE_BLOCK * SLICE_BLOCK);
 }
 
 } // namespace

@@ -33,9 +33,6 @@ SliceSampling samplingOf(const Settings& settings);
 /// True if a frame asks for slices to be chosen from twice as many as it may have (Settings::errorTarget).
 bool mayChooseSlices(const Frame& frame);
 
-/// Slices among which a choice is made come in blocks of so many (glsl/lib/slices.glsl).
-inline constexpr int kSliceBlock = 8;
-
 /// Slices by the frame's settings. shadowWidth, shadowHeight: texels, 0 without a shadow map.
 SliceTable makeSlices(const Frame& frame, const Light& light, int shadowWidth, int shadowHeight,
                       const SliceSampling& sampling);

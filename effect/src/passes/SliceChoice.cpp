@@ -7,9 +7,9 @@
 // A preview, of every eighth slice and coarser along them, tells how much light changes from slice to slice, and where.
 // Nothing waits for it: columns that are not used are drawn without a fragment, as by temporal reuse.
 //
-//   all slices --> preview: [sample ends], [rows], [march], [mean light], [slice errors]
+//   candidates --> preview: [sample ends], [rows], [march], [mean light], [slice errors]
 //   slice errors --> [slice spacing], [slice budget], [slice blocks] --> slice blocks
-//   all slices, slice blocks --> [drawn slices] --> slice table, changed slices, changed segments
+//   candidate table, slice blocks --> [drawn slices] --> slice table, changed slices, changed segments
 //   slice spacing, slice blocks --> [slice estimate], for the statistics
 //
 namespace tyndall::passes::slice_choice {
@@ -19,7 +19,7 @@ namespace {
 constexpr int kFewerSamples = 2, kLongerSteps = 4;
 
 optics::SliceSampling previewOf(const Settings& settings) {
-  return {optics::kSliceBlock, std::max(settings.samples / kFewerSamples / 64 * 64, 64),
+  return {SLICE_BLOCK, std::max(settings.samples / kFewerSamples / 64 * 64, 64),
           std::min(settings.rowStep * kLongerSteps, 8)};
 }
 

@@ -86,7 +86,7 @@ void LightPlanner::makeSlices(optics::SliceSampling sampling) {
   viewsPerDraw = chooseViewsPerDraw();
   extent.rowRoom = extent.slices * viewsPerDraw;
   extent.floatRows = block.rowCodeSteps == 0;
-  upload(block.sliceTarget > 0 ? Resource::AllSlices : Resource::SliceTable, geometry.texels);
+  upload(block.sliceTarget > 0 ? Resource::CandidateTable : Resource::SliceTable, geometry.texels);
 }
 
 // Texels of a row and levels of its tree: the coarsest level keeps at least one node of each row, and four if it can.

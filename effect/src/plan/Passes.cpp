@@ -273,7 +273,7 @@ std::vector<PassRow> makeRows() {
           .writes({R::SliceBlocks})
           .sameForAllLights(),
       Row(Pass::DrawnSlices, "drawn slices", "passes/drawnSlices.frag")
-          .reads({R::AllSlices, R::SliceBlocks})
+          .reads({R::CandidateTable, R::SliceBlocks})
           .writes({R::SliceTable})
           .sameForAllLights(),
       Row(Pass::DrawnColumns, "drawn slices", "passes/drawnColumns.frag")

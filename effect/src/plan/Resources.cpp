@@ -2,7 +2,6 @@
 
 #include "Rounding.h"
 #include "SharedBlocks.h"
-#include "optics/Slices.h"
 
 #include <tyndall/tyndall.h>
 
@@ -60,8 +59,8 @@ Size twos(E e) { return {e.slices, e.samples / 2}; }
 Size slices(E e) { return {e.slices, 1}; }
 Size one(E) { return {1, 1}; }
 Size candidateSlices(E e) { return {e.candidateSlices, e.tableRows}; }
-Size blocks(E e) { return {e.candidateSlices / optics::kSliceBlock, 1}; }
-Size blocksAndSum(E e) { return {e.candidateSlices / optics::kSliceBlock + 1, 1}; }
+Size blocks(E e) { return {e.candidateSlices / SLICE_BLOCK, 1}; }
+Size blocksAndSum(E e) { return {e.candidateSlices / SLICE_BLOCK + 1, 1}; }
 Size budgets(E) { return {SLICE_BUDGETS, 1}; }
 Size codes(E) { return {ESTIMATE_CODES, 1}; }
 Size imageRows(E e) { return {e.height, 1}; }
@@ -137,7 +136,7 @@ constexpr ResourceRow kRows[] = {
     {"stand in transmittance", kGiven, kGiven, always, always, image, image, Lifetime::Frame, "the same"},
     {"slice table", kRgba32, kRgba32, always, always, table, table, Lifetime::Light,
      "the slices' geometry, computed in double", "slice table"},
-    {"all slices", kRgba32, kRgba32, always, always, candidateSlices, candidateSlices, Lifetime::Frame,
+    {"candidate table", kRgba32, kRgba32, always, always, candidateSlices, candidateSlices, Lifetime::Frame,
      "the same where not all are drawn (Settings::errorTarget)", "slice table"},
     {"sample ends", kR32, kR32, always, always, samples, samples, Lifetime::Compared,
      "distance along the camera ray; float, for breaks and the march", "sample ends"},

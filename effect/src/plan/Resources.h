@@ -39,7 +39,7 @@ enum class Resource {
   StandInInscatter,
   StandInTransmittance,
   SliceTable,
-  AllSlices,
+  CandidateTable,
   SampleEnds,
   Marks,
   RefinedMarks,
