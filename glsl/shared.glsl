@@ -15,7 +15,7 @@
 #define ESTIMATE_LEAST 384  // for an error 2^((fragments - ESTIMATE_LEAST) / ESTIMATE_OCTAVE)
 #define ESTIMATE_OCTAVE 16
 #define SLICE_BLOCK 8 // slices of a block, of which some are drawn (lib/slices.glsl)
-#define SLICE_BUDGETS 96 // targets that are tried (lib/sliceSpacing.glsl); the last one is met by every picture
+#define SLICE_BUDGETS 192 // prices of a slice that are tried (sliceBudget.frag); the last one is too high for any but the least
 #define LAMP_PIXELS 32.0 // around a lamp in the image, where every pixel is marched by itself: its light is brightest there
 
 UNIFORM_BLOCK(FrameBlock) {

@@ -6,9 +6,13 @@ uniform sampler2D sliceSpacing;
 
 vec4 spacingOf(int block) { return texelFetch(sliceSpacing, ivec2(block, 0), 0); }
 
-int slicesFor(vec4 spacing, float target) {
+// Slices go where one more takes most of the error's square off the whole picture, down to a price: so no other choice of as many has
+// less. Half of a block's slices, added to the other half, take this off for each:
+float gainOf(vec4 spacing, float error, int drawn) { return min(spacing.z * error * (1.0 - 1.0 / spacing.y) / float(drawn), 1e30); }
+
+int slicesFor(vec4 spacing, float price) {
   int drawn = int(spacing.w);
-  for (float error = spacing.x; drawn < SLICE_BLOCK && error > target * target; error /= spacing.y) drawn *= 2;
+  for (float error = spacing.x; drawn < SLICE_BLOCK && gainOf(spacing, error, drawn) > price; error /= spacing.y) drawn *= 2;
   return drawn;
 }
 
@@ -17,7 +21,3 @@ float errorWith(vec4 spacing, int drawn) {
   for (int i = 1; i < drawn; i *= 2) error /= spacing.y;
   return error;
 }
-
-// Where a target would take more slices than there is room for the least of these that does not: the target times fourth roots of powers of 2. The
-// last one is met by whatever is drawn, with the square a float still.
-float budgetTarget(int step) { return step == SLICE_BUDGETS - 1 ? 1e18 : sliceTarget * exp2(0.25 * float(step)); }

@@ -1,5 +1,5 @@
-// Slice spacing: what is known of each block of eight slices. From how far a preview's slices, of which each block has its first, are off
-// between neighbours two and four apart follows how fast errors fall as slices come nearer.
+// Slice spacing: what is known of each block of eight slices, of which a preview has the first. From how far the preview's slices are off
+// between neighbours two and four blocks apart follows how fast errors fall as slices come nearer.
 // Reads sliceErrors, of the preview. Writes blocks x 1, RGBA32F, as lib/sliceSpacing.glsl says.
 #include "shared.glsl"
 #include "lib/slices.glsl"
@@ -14,11 +14,12 @@ const int kAround = 2; // blocks on either side whose slices count: one tells li
 
 void main() {
   int block = int(gl_FragCoord.x), blocks = candidateSlices / SLICE_BLOCK;
-  vec4 sum = vec4(0.0);
-  for (int i = -kAround; i <= 1 + kAround; ++i) sum += texelFetch(sliceErrors, ivec2(wrapped(block + i, blocks), 0), 0);
-  vec2 errors = sum.xz / max(sum.yw, vec2(1e-30)); // squares, of neighbours two blocks apart and four
-  // By this much they fall where the slices are half as far apart: at edges by 2, where light is smooth by 16.
-  float falls = clamp(errors.y / max(errors.x, 1e-30), 2.0, 16.0);
+  vec4 around = vec4(0.0), all = vec4(0.0);
+  for (int i = -kAround; i <= 1 + kAround; ++i) around += texelFetch(sliceErrors, ivec2(wrapped(block + i, blocks), 0), 0);
+  for (int i = 0; i < blocks; ++i) all += texelFetch(sliceErrors, ivec2(i, 0), 0);
+  float error = around.x / max(around.y, 1e-30); // the square, of neighbours two blocks apart
+  // By this much it falls where slices are half as far apart: at edges by 2, where light is smooth by 16. That takes many slices to tell.
+  float falls = clamp(all.z * all.y / max(all.x * all.w, 1e-30), 2.0, 16.0);
   bool isLast = slicesClosed == 0 && block == blocks - 1; // nothing lies behind it
-  outSpacing = vec4(kOfMiddle * errors.x / falls, falls, sum.y, isLast ? float(SLICE_BLOCK) : 1.0);
+  outSpacing = vec4(kOfMiddle * error / falls, falls, around.y, isLast ? float(SLICE_BLOCK) : 1.0);
 }

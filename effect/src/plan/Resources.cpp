@@ -151,7 +151,7 @@ constexpr ResourceRow kRows[] = {
      "Settings::errorTarget: what slices differ by from what others lead to expect", "slice choice"},
     {"slice spacing", kRgba32, kRgba32, always, always, blocks, blocks, Lifetime::Frame,
      "the same: the error expected of eight with one, and how fast it falls", "slice choice"},
-    {"slice budget", kR32, kR32, always, always, budgets, budgets, Lifetime::Frame,
+    {"slice budget", kRgba32, kRgba32, always, always, budgets, budgets, Lifetime::Frame,
      "the same: slices that targets take", "slice choice"},
     {"slice blocks", kRgba32, kRgba32, always, always, blocksAndSum, blocksAndSum, Lifetime::Frame,
      "the same: the columns of eight slices", "slice choice"},
