@@ -15,7 +15,7 @@
 #define ESTIMATE_LEAST 384  // for an error 2^((fragments - ESTIMATE_LEAST) / ESTIMATE_OCTAVE)
 #define ESTIMATE_OCTAVE 16
 #define SLICE_BLOCK 8 // slices of a block, of which some are drawn (lib/slices.glsl)
-#define SLICE_BUDGETS 192 // prices of a slice that are tried (sliceBudget.frag); the last one is too high for any but the least
+#define SLICE_BUDGETS 192 // prices of slices that are tried (sliceBudget.frag); at the last no block gets more than its least
 #define LAMP_PIXELS 32.0 // around a lamp in the image, where every pixel is marched by itself: its light is brightest there
 
 UNIFORM_BLOCK(FrameBlock) {

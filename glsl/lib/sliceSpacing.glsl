@@ -1,13 +1,13 @@
-// How many slices of a block are drawn for a sliceTarget, from what sliceSpacing.frag has of it. Needs lib/slices.glsl.
+// How many slices of a block are drawn at a price of slices, from what sliceSpacing.frag has of it. Needs lib/slices.glsl.
 
-// Expected of it with one slice: the error's square, as a part of the picture's mean; by how much that falls with twice as many; the area
-// that it stands for; the least that are drawn.
+// Expected of it with one slice: the error's square, as a part of the picture's mean; by how much that falls with twice as many; how much it
+// counts, by the area that the slices around stand for; the least that are drawn.
 uniform sampler2D sliceSpacing;
 
 vec4 spacingOf(int block) { return texelFetch(sliceSpacing, ivec2(block, 0), 0); }
 
-// Slices go where one more takes most of the error's square off the whole picture, down to a price: so no other choice of as many has
-// less. Half of a block's slices, added to the other half, take this off for each:
+// What each of as many slices again as there are takes off the square of the whole picture's error. Where slices are drawn down to a price of
+// that, no other choice of as many is expected to leave less.
 float gainOf(vec4 spacing, float error, int drawn) { return min(spacing.z * error * (1.0 - 1.0 / spacing.y) / float(drawn), 1e30); }
 
 int slicesFor(vec4 spacing, float price) {

@@ -1,4 +1,4 @@
-// Slice budget: how many slices prices take that are less and less strict (lib/sliceSpacing.glsl), and how much error they leave. Reads
+// Slice budget: how many slices are drawn at prices that are higher and higher (lib/sliceSpacing.glsl), and how much error is left. Reads
 // sliceSpacing. Writes SLICE_BUDGETS x 1, RGBA32F: slices, the mean of the error's square, the price.
 #include "shared.glsl"
 #include "lib/slices.glsl"
@@ -6,16 +6,16 @@
 
 layout(location = 0) out vec4 outBudget;
 
-// Roots of powers of 2, around what a block would gain by its last slices that then meets the target. The last one nothing is worth.
-float priceOf(int step, float area) {
-  return step == SLICE_BUDGETS - 1 ? 2e30 : sliceTarget * sliceTarget * area * exp2(0.25 * float(step) - 8.0);
-}
-
 void main() {
   int blocks = candidateSlices / SLICE_BLOCK, slices = 0;
-  float area = 0.0, error = 0.0;
-  for (int block = 0; block < blocks; ++block) area += spacingOf(block).z;
-  float price = priceOf(int(gl_FragCoord.x), area / float(blocks));
+  float area = 0.0, error = 0.0, dearest = 0.0;
+  for (int block = 0; block < blocks; ++block) {
+    vec4 own = spacingOf(block);
+    area += own.z;
+    dearest = max(dearest, gainOf(own, own.x, 1));
+  }
+  // By fourth roots of 2, up to what nothing is worth.
+  float price = dearest * exp2(0.25 * float(int(gl_FragCoord.x) - (SLICE_BUDGETS - 1)));
   for (int block = 0; block < blocks; ++block) {
     vec4 own = spacingOf(block);
     int drawn = slicesFor(own, price);

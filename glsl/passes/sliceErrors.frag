@@ -66,7 +66,7 @@ vec2 errorOf(Sample own, vec3 light, int slice, int apart) {
   float area = length(epipole.z * own.position - epipole.xy);
   if (isNearLight(own.position) || !isServed(sum) || !(area < 1e18)) return vec2(0.0);
   float error = brightestOf(abs(radianceUnit(own.ray) * lightOf(sum.rgb / sum.w - light))) / max(texelFetch(meanLight, ivec2(0), 0).r, 1e-37);
-  return error < 1e18 ? area * vec2(error * error, 1.0) : vec2(0.0);
+  return error < 1e12 ? area * vec2(error * error, 1.0) : vec2(0.0);
 }
 
 void main() {

@@ -19,7 +19,8 @@ void main() {
   for (int i = 0; i < blocks; ++i) all += texelFetch(sliceErrors, ivec2(i, 0), 0);
   float error = around.x / max(around.y, 1e-30); // the square, of neighbours two blocks apart
   // By this much it falls where slices are half as far apart: at edges by 2, where light is smooth by 16. That takes many slices to tell.
-  float falls = clamp(all.z * all.y / max(all.x * all.w, 1e-30), 2.0, 16.0);
+  vec2 errors = min(all.xz / max(all.yw, vec2(1e-30)), vec2(1e30)); // of neighbours two blocks apart and four
+  float falls = clamp(errors.y / max(errors.x, 1e-30), 2.0, 16.0);
   bool isLast = slicesClosed == 0 && block == blocks - 1; // nothing lies behind it
   outSpacing = vec4(kOfMiddle * error / falls, falls, around.y, isLast ? float(SLICE_BLOCK) : 1.0);
 }

@@ -320,9 +320,9 @@ struct Settings {
   float spreadThreshold = std::numeric_limits<float>::infinity();
   /// Epipolar: root mean square error of a light's inscatter, as a part of its mean, up to which slices and march
   /// samples are left out: 0 to 1, 0.01 is a hundredth; 0: none is. A coarser look at the light, by an eighth of twice
-  /// as many as `slices`, tells where they are close to what those beside them lead to expect. Of a quarter as many as
-  /// `slices` to twice as many, by places, those are drawn that it takes, and no more than `slices` in all: so where
-  /// they count they may be twice as near to each other as without a target. Where that does not reach it the error is
+  /// as many as `slices`, tells where they are close to what those beside them lead to expect. As many are drawn as the
+  /// target takes, no more than `slices` in all, where they take most off the error of the whole image: by places from
+  /// a quarter as near to each other as without a target to twice as near. Where that does not reach it the error is
   /// greater; Statistics::errorEstimate says how great it is expected to be. Shafts that are thinner than that look's
   /// slices are apart, 8 pixels at least at the border, 14 by Profile::High at 1280 x 720, may be missed where they lie
   /// between. With a finite spreadThreshold, with Frame::reuse, and of fewer than 32 slices all are drawn, whatever the
@@ -484,8 +484,9 @@ struct Statistics {
   /// those lights of which something was drawn.
   std::uint64_t drawnSlices = 0;
   /// Settings::errorTarget: what a light's inscatter is expected to be off by for want of slices, for the light that it
-  /// is most for: root mean square as a part of the light's mean, to a twentieth; and the share of the image that is
-  /// off by more than the target. 0 without one.
+  /// is most for: root mean square as a part of the light's mean, to a twentieth; more than the target where that is
+  /// missed. And the share of the image that is off by more than the target, which may be much though the image as a
+  /// whole meets it. 0 without one.
   double errorEstimate = 0;
   double shareOverTarget = 0;
   /// Share of the slices' segments, over all lights, that were marched: 1 for a frame drawn in full, 0 for one that

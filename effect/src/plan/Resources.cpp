@@ -152,7 +152,7 @@ constexpr ResourceRow kRows[] = {
     {"slice spacing", kRgba32, kRgba32, always, always, blocks, blocks, Lifetime::Frame,
      "the same: the error expected of eight with one, and how fast it falls", "slice choice"},
     {"slice budget", kRgba32, kRgba32, always, always, budgets, budgets, Lifetime::Frame,
-     "the same: slices that targets take", "slice choice"},
+     "the same: what prices of slices take, and the error that they leave", "slice choice"},
     {"slice blocks", kRgba32, kRgba32, always, always, blocksAndSum, blocksAndSum, Lifetime::Frame,
      "the same: the columns of eight slices", "slice choice"},
     {"slice estimate", kRg32, kRg32, always, always, one, one, Lifetime::Frame,
