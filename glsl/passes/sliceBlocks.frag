@@ -20,16 +20,17 @@ struct Choice {
 // is; then what room is left goes at the price below, below the lowest also to those of which the preview saw nothing.
 Choice chosenPrice() {
   int step = 0;
-  vec4 own = texelFetch(sliceBudget, ivec2(0), 0), before = vec4(float(candidateSlices), 0.0, -1.0, 0.0);
+  float lower = -1.0;
+  vec4 own = texelFetch(sliceBudget, ivec2(0), 0);
   while (step < SLICE_BUDGETS - 1) {
     vec4 next = texelFetch(sliceBudget, ivec2(step + 1, 0), 0);
     if (int(own.r) <= sliceCount && next.g > kOfSlices * sliceTarget * sliceTarget) break;
-    before = own;
+    lower = own.b;
     own = next;
     ++step;
   }
   bool isMissed = own.g > kOfSlices * sliceTarget * sliceTarget;
-  return Choice(own.b, before.b, isMissed ? sliceCount - int(own.r) : 0);
+  return Choice(own.b, lower, isMissed ? sliceCount - int(own.r) : 0);
 }
 
 // Of a block, behind which there have to be columns for the least of those that follow, however the two shaders' numbers are rounded.
