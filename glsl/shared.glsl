@@ -6,6 +6,7 @@
 // world orientation: no shader adds a world position.
 
 #define MAX_CONSTITUENTS 4
+#define MAX_HEIGHT_LAYERS 2
 #define MAX_SHADOW_VIEWS 6
 #define EDGE_RAYS 3 // that are marched for samples at an edge of a multisampled depth, at most
 #define EPIPOLE_GAP 0.25 // pixels between an epipole in the image and where slices begin
@@ -26,9 +27,9 @@ UNIFORM_BLOCK(FrameBlock) {
   float depthOffset, depthScale;      // t = depthOffset + depthScale * depth, of what passes read (lib/engineDepth.glsl)
   int isOrthographic;
   float skyEnd;                       // ray length for the sky
-  vec3 extinction;                    // sigma_t
+  vec3 extinction;                    // sigma_t, of what is the same everywhere
   float visibleEnd;                   // ray length beyond which nothing visible is added
-  vec4 phaseWeight[MAX_CONSTITUENTS]; // share of sigma_k in the scattering of all constituents, rgb, times the norm of p_k
+  vec4 phaseWeight[MAX_CONSTITUENTS]; // share of sigma_k in the scattering of all constituents, rgb, times the norm of p_k; the layer + 1 or 0
   vec4 phaseShape[MAX_CONSTITUENTS];  // a, b, c, side: p_k ~ (1 + c cos^2) (a + b (1 -+ cos))^(-3/2), - for side > 0
   float lightCeiling;                 // largest radiance that a light may add,
   float colourMax, outputMax;         // that the colour's format holds, the output's
@@ -44,6 +45,12 @@ UNIFORM_BLOCK(FrameBlock) {
   vec2 jitter;                        // by how many pixels the image has been moved: rays are those of the camera at rest
   int depthSample;                    // of several a pixel, or of EDGE_RAYS, the one that is drawn; -1: none
   int depthSampleShift;               // samples of a pixel, 2^s, that stand side by side where they are not in a multisampled texture
+  // Layers that thin out with height (lib/height.glsl): density exp(-max(dot(xyz, x) + w, ground)),
+  vec4 layerUp[MAX_HEIGHT_LAYERS];
+  vec4 layerExtinction[MAX_HEIGHT_LAYERS]; // sigma_t where density is 1; w: ground
+  int layerCount;
+  int onlyLayer;                      // the one that all of the medium follows, or -1
+  int framePadding0, framePadding1;
 };
 
 // A view of a light's shadow map.

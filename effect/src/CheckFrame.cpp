@@ -87,7 +87,31 @@ Status checkViewport(const Frame& frame) {
   return {};
 }
 
+// A layer that coefficients follow: one of the medium's, or -1.
+Status checkLayer(const Medium& medium, const std::string& field, int layer) {
+  if (layer >= -1 && layer < static_cast<int>(medium.layers.size())) return {};
+  return invalid(field, std::to_string(layer),
+                 "must be -1 or one of the " + std::to_string(medium.layers.size()) + " of medium.layers, from 0 on");
+}
+
+Status checkLayers(const Medium& medium) {
+  if (medium.layers.size() > kMaxHeightLayers)
+    return invalid("medium.layers", std::to_string(medium.layers.size()) + " long", "at most 2 are allowed");
+  for (std::size_t i = 0; i < medium.layers.size(); ++i) {
+    const HeightLayer& layer = medium.layers[i];
+    const std::string field = "medium.layers[" + std::to_string(i) + "].";
+    if (!std::isfinite(layer.height)) return invalid(field + "height", text(layer.height), "must be finite");
+    if (!(layer.scale > 0)) return invalid(field + "scale", text(layer.scale), "must be > 0, may be infinite");
+    if (!(layer.ground < kInfinity))
+      return invalid(field + "ground", text(layer.ground), "must be finite, or -infinity: there is none");
+  }
+  if (!medium.layers.empty() && (!isFinite(medium.up) || isZero(medium.up)))
+    return invalid("medium.up", textOf(medium.up), "must be finite and not 0");
+  return {};
+}
+
 Status checkMedium(const Medium& medium) {
+  if (Status s = checkLayers(medium); !s) return s;
   if (medium.constituents.size() > kMaxConstituents)
     return invalid("medium.constituents", std::to_string(medium.constituents.size()) + " long",
                    "at most 4 are allowed");
@@ -99,7 +123,9 @@ Status checkMedium(const Medium& medium) {
     if (c.phase < Phase::Isotropic || c.phase > Phase::CornetteShanks)
       return invalid(field + "phase", std::to_string(static_cast<int>(c.phase)), "must be one of the enumerators");
     if (!(c.g > -1 && c.g < 1)) return invalid(field + "g", text(c.g), "must lie between -1 and 1, both excluded");
+    if (Status s = checkLayer(medium, field + "layer", c.layer); !s) return s;
   }
+  if (Status s = checkLayer(medium, "medium.absorptionLayer", medium.absorptionLayer); !s) return s;
   if (!isNonNegative(medium.absorption))
     return invalid("medium.absorption", textOf(medium.absorption), "must be finite and >= 0");
   if (!(medium.farDistance > 0)) return invalid("medium.farDistance", text(medium.farDistance), "must be > 0");

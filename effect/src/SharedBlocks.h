@@ -17,7 +17,7 @@ using glm::vec4;
 #undef UNIFORM_BLOCK
 
 // std140 adds no padding of its own: sizes are those of the rows, and what must begin a row does.
-static_assert(sizeof(FrameBlock) == 16 * (3 + 1 + 1 + 1 + 2 * MAX_CONSTITUENTS + 6));
+static_assert(sizeof(FrameBlock) == 16 * (3 + 1 + 1 + 1 + 2 * MAX_CONSTITUENTS + 6 + 2 * MAX_HEIGHT_LAYERS + 1));
 static_assert(sizeof(MapView) == 16 * 9);
 static_assert(sizeof(LightBlock) == 16 * 7 + sizeof(MapView) * MAX_SHADOW_VIEWS);
 static_assert(sizeof(CopyBlock) == 16 * (3 + 1 + 3));
@@ -27,7 +27,8 @@ constexpr bool isAligned(std::size_t offset) { return offset % 8 == 0; } // a pa
 static_assert(beginsRow(offsetof(FrameBlock, extinction)) && beginsRow(offsetof(FrameBlock, phaseWeight)));
 static_assert(beginsRow(offsetof(FrameBlock, phaseShape)) && isAligned(offsetof(FrameBlock, frameSize)));
 static_assert(beginsRow(offsetof(FrameBlock, depthFirst)) && beginsRow(offsetof(FrameBlock, depthAxis)));
-static_assert(isAligned(offsetof(FrameBlock, jitter)));
+static_assert(isAligned(offsetof(FrameBlock, jitter)) && beginsRow(offsetof(FrameBlock, layerUp)));
+static_assert(beginsRow(offsetof(FrameBlock, layerExtinction)));
 static_assert(beginsRow(offsetof(MapView, margin)) && beginsRow(offsetof(MapView, curveDepth)));
 static_assert(beginsRow(offsetof(LightBlock, lightDirection)) && beginsRow(offsetof(LightBlock, lightPosition)));
 static_assert(beginsRow(offsetof(MapView, origin)) && beginsRow(offsetof(LightBlock, boundary)));

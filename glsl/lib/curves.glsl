@@ -99,9 +99,9 @@ float linearDepthAt(ViewSegment segment, float s) {
 uniform sampler2D curveCells; // cells x rows: as cellEnds
 uniform sampler2D curveTree;  // nodes of 4, 16, ... cells behind one another x rows; w: the first moment of what passes
 
-float evenStretch(Airlight light) { return evenLength(light, averageThreshold); }
+float evenStretch(Airlight light, ViewSegment segment) { return evenLength(light, averageThreshold, segment.s0, segment.s1); }
 #else
-float evenStretch(Airlight light) { return evenLength(light, 0.05); }
+float evenStretch(Airlight light, ViewSegment segment) { return evenLength(light, 0.05, segment.s0, segment.s1); }
 #endif
 
 // The transmittance of a cell from one parameter to another.
@@ -120,7 +120,7 @@ vec2 cellPassed(ViewSegment segment, int cell, float u0, float u1) {
 // The stretch from u on, no farther than to `end`: all that is clear or, if nothing is there, one that is dimmed evenly.
 Dimmed nextDimmed(Airlight light, ViewSegment segment, float u, float end) {
   int cells = curvesSize, cell = clamp(int(floor(curveLine.begin + u * curveLine.extent)), 0, cells - 1), level = 0, base = 0;
-  float even = evenStretch(light), begin = u, to;
+  float even = evenStretch(light, segment), begin = u, to;
   vec2 passed; // of a node behind which the stretch lies
   bool searching = u < end, known = false;
   for (int guard = 0; guard < 8 * cells && searching; ++guard) {

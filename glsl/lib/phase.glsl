@@ -10,8 +10,15 @@
 #define SPECTRUM(v) (v).rgb
 #endif
 
+#include "lib/exponential.glsl"
+
 // T(s) of DESIGN 1.
-vec3 transmittanceTo(float s) { return vec3(exp(-SPECTRUM(extinction) * s)); }
+#if HEIGHT
+#include "lib/height.glsl"
+vec3 transmittanceTo(Ray ray, float s) { return vec3(exp(-depthTo(heightsAlong(ray), s))); }
+#else
+vec3 transmittanceTo(Ray ray, float s) { return vec3(exp(-SPECTRUM(extinction) * s)); }
+#endif
 
 // Sum over constituents of sigma_k p_k over the sum of sigma_k, 1/sr. Takes 1 - cos and 1 + cos of the scattering angle.
 Spectrum phaseTowardsEye(float oneMinusCos, float onePlusCos) {
@@ -25,6 +32,30 @@ Spectrum phaseTowardsEye(float oneMinusCos, float onePlusCos) {
   }
   return sum;
 }
+
+#if HEIGHT
+// The same in parts: of the constituents that are the same everywhere, and of those that follow each layer, where density is 1.
+struct Phases {
+  Spectrum even, first, second;
+};
+
+Phases phasesTowardsEye(float oneMinusCos, float onePlusCos) {
+  float cosSquared = 0.25 * (onePlusCos - oneMinusCos) * (onePlusCos - oneMinusCos);
+  Phases phases = Phases(Spectrum(0.0), Spectrum(0.0), Spectrum(0.0));
+  for (int k = 0; k < constituentCount; ++k) {
+    vec4 shape = phaseShape[k];
+    float d = shape.x + shape.y * (shape.w > 0.0 ? oneMinusCos : onePlusCos);
+    float r = inversesqrt(d), layer = phaseWeight[k].w;
+    Spectrum phase = SPECTRUM(phaseWeight[k]) * ((1.0 + shape.z * cosSquared) * (r * r * r));
+    if (layer == 0.0) phases.even += phase;
+    else if (layer == 1.0) phases.first += phase;
+    else phases.second += phase;
+  }
+  return phases;
+}
+
+Spectrum phaseOf(Phases phases, vec2 density) { return phases.even + density.x * phases.first + density.y * phases.second; }
+#endif
 
 // The same of a directional light along a camera ray. theta lies between the light's travel and the direction to the eye:
 // cos = -dot(l, v), |l + v|^2 / 2 = 1 - cos.

@@ -10,7 +10,7 @@ float langevin(float x) {
 vec3 langevin(vec3 x) { return vec3(langevin(x.x), langevin(x.y), langevin(x.z)); }
 
 // Adds the light of a span where the visibility has a mean and a first moment (from -1 to 1 over the span), as that of a line.
-#if LIGHT_KIND == 0
+#if LIGHT_KIND == 0 && !HEIGHT
 // With fades or curves spans may be long; else the airlight falls along a line, too.
 void addWeighted(Airlight light, float s0, float s1, Visibility mean, Visibility moment, inout Light sum) {
   bool attenuated = light.path + 0.5 * (s0 + s1) * light.pathSlope > 0.0;

@@ -63,7 +63,7 @@ void startRow(Airlight light, ViewSegment segment, int slice, out RowLine line, 
   line.inverse = line.last > walk.index ? 1.0 / (end - line.begin) : 0.0;
   // The longest texel of a projection that may be a perspective one.
   float texel = (segment.s1 - segment.s0) * line.inverse * max(segment.weight, 1.0 / segment.weight);
-  line.evenLevel = min(int(floor(0.5 * log2(clamp(evenLength(light, averageThreshold) / max(texel, 1e-30), 1.0, 1e9)))), kMostEven);
+  line.evenLevel = min(int(floor(0.5 * log2(clamp(evenLength(light, averageThreshold, segment.s0, segment.s1) / max(texel, 1e-30), 1.0, 1e9)))), kMostEven);
 #ifdef TINT_SUMS
   line.tintSums = lowRank.valid;
 #if FADES

@@ -27,7 +27,8 @@ vec2 nextEnd(float from) {
 
 vec3 meanTransmittance() {
   vec3 sum = vec3(0.0);
-  for (int k = 0; k < depthSampleCount; ++k) sum += transmittanceTo(sampleEndAt(k)) / float(depthSampleCount);
+  Ray ray = cameraRay(unjittered(gl_FragCoord.xy));
+  for (int k = 0; k < depthSampleCount; ++k) sum += transmittanceTo(ray, sampleEndAt(k)) / float(depthSampleCount);
   return sum;
 }
 

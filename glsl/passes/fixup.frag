@@ -20,5 +20,5 @@ void main() {
   int slice = neighbourSlices(sliceCoordinate(position)).x;
   vec3 light = vec3(rowShadowedLight(position, 0.0, end, slice));
   outInscatter = vec4(min(lightColour * light, vec3(lightCeiling)), 0.0);
-  outTransmittance = vec4(transmittanceTo(end), 1.0);
+  outTransmittance = vec4(transmittanceTo(cameraRay(position), end), 1.0);
 }

@@ -71,11 +71,11 @@ void main() {
 #ifdef SHARES
   vec4 byShares = isNearLight(target.position) ? vec4(0.0) : radianceByShares(target.position, cameraRay(target.position), end);
   outInscatter = vec4(min(byShares.rgb, vec3(lightCeiling)), 0.0);
-  outTransmittance = vec4(transmittanceTo(end), 1.0);
+  outTransmittance = vec4(transmittanceTo(cameraRay(target.position), end), 1.0);
   if (byShares.w > 0.0) return;
 #endif
   Light light = rowShadowedLight(target.position, 0.0, end, target.slice);
   Spectrum factor = factorOf(cameraRay(target.position));
   outInscatter = vec4(isImage == 0 ? storedLight(light, vec3(factor).x) : min(lightColour * vec3(factor) * vec3(light), vec3(lightCeiling)), 0.0);
-  outTransmittance = vec4(transmittanceTo(end), 1.0);
+  outTransmittance = vec4(transmittanceTo(cameraRay(target.position), end), 1.0);
 }

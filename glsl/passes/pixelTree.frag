@@ -35,5 +35,5 @@ void main() {
 #else
   outInscatter = vec4(min(lightColour * light, vec3(lightCeiling)), 0.0);
 #endif
-  outTransmittance = vec4(transmittanceTo(end), 1.0);
+  outTransmittance = vec4(transmittanceTo(cameraRay(position), end), 1.0);
 }

@@ -2,6 +2,7 @@
 // Writes inscatter, 0, and transmittance: as the two sources of dual-source blending (COMPOSITE 1) or into two targets.
 #include "shared.glsl"
 #include "lib/camera.glsl"
+#include "lib/phase.glsl"
 #include "lib/depthSamples.glsl"
 
 #if COMPOSITE
@@ -13,8 +14,9 @@ layout(location = 1) out vec4 outTransmittance;
 
 void main() {
   vec3 transmittance = vec3(0.0);
+  Ray ray = cameraRay(unjittered(gl_FragCoord.xy));
   for (int k = 0; k < depthSampleCount; ++k)
-    transmittance += exp(-extinction * sampleEndAt(k)) / float(depthSampleCount);
+    transmittance += transmittanceTo(ray, sampleEndAt(k)) / float(depthSampleCount);
   outInscatter = vec4(0.0);
   outTransmittance = vec4(transmittance, 1.0);
 }

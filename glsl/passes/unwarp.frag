@@ -83,5 +83,5 @@ void main() {
   vec4 light = lightTo(end, ray, position, place);
   if (isNearLight(position) || !isServed(light)) discard;
   outInscatter = vec4(radianceOf(light, ray), 0.0);
-  outTransmittance = vec4(transmittanceTo(end), 1.0);
+  outTransmittance = vec4(transmittanceTo(ray, end), 1.0);
 }

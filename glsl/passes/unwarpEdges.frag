@@ -97,7 +97,7 @@ void main() {
     float end = sampleEndAt(k);
     vec4 own = nearestLight(nearest, endCoordinate(ray, min(end, visibleEnd)));
     bool isDark = end <= 0.0, isDone = isDark || isServed(own);
-    transmittance += transmittanceTo(end) * share;
+    transmittance += transmittanceTo(ray, end) * share;
     light += isDone && !isDark ? own.rgb / own.w : vec3(0.0);
     served += isDone ? share : 0.0;
     left |= isDone ? 0 : 1 << k;

@@ -20,7 +20,9 @@ uniform vec3 lightDirection; // where the light travels to, length 1
 uniform vec3 lightColour;
 uniform float lightRange;
 uniform vec2 spotScaleOffset;
-uniform vec3 extinction;
+uniform vec3 extinction;          // of what of the medium is the same everywhere, and of layers of density
+uniform vec4 layerExtinction[2];  // exp(-max(e, ground)), e = dot(layerUp.xyz, position) + layerUp.w; w: ground
+uniform vec4 layerUp[2];
 uniform vec3 skyRadiance;
 uniform float maxRadiance; // that the picture holds
 
@@ -45,6 +47,23 @@ uniform usampler2DArray curves;
 uniform vec4 curveDepth[kMaxViews]; // linear depth of a relative position
 uniform float curveSize;            // texels per side
 #endif
+
+/// Integral of a layer's density over the exponents from a to b, which is a mean over the way between them.
+float meanDensity(float a, float b, float ground) {
+  float low = max(min(a, b), ground), high = max(max(a, b), ground), width = abs(b - a);
+  float share = high - low < width ? (high - low) / width : 1.0, x = high - low;
+  return exp(-low) * (1.0 - share + share * (x < 1e-3 ? 1.0 - 0.5 * x : (1.0 - exp(-x)) / x));
+}
+
+/// Optical depth of the way between two points.
+vec3 opticalDepth(vec3 from, vec3 to) {
+  vec3 sum = extinction;
+  for (int i = 0; i < 2; ++i) {
+    float a = dot(layerUp[i].xyz, from) + layerUp[i].w, b = dot(layerUp[i].xyz, to) + layerUp[i].w;
+    sum += layerExtinction[i].rgb * meanDensity(a, b, layerExtinction[i].w);
+  }
+  return distance(from, to) * sum;
+}
 
 /// The first view that holds the point from its near plane on, or -1. What lies beyond the far plane falls to the last.
 int viewOf(vec3 position) {
@@ -137,7 +156,7 @@ vec3 unblockedIrradiance(vec3 position, out vec3 toLight, out float lightDistanc
     lightDistance = length(toLight);
     if (lightDistance == 0.0 || lightDistance > lightRange) return vec3(0.0);
     toLight /= lightDistance;
-    strength *= exp(-extinction * lightDistance) / (lightDistance * lightDistance);
+    strength *= exp(-opticalDepth(lightPosition, position)) / (lightDistance * lightDistance);
   }
   if (pass == SPOT) {
     float falloff = clamp(dot(lightDirection, -toLight) * spotScaleOffset.x + spotScaleOffset.y, 0.0, 1.0);

@@ -48,7 +48,7 @@ void LightTexture::render(const glm::ivec2& size, const Illumination& illuminati
   for (const tyndall::Light& light : illumination.lights) {
     Program& program = program_.variantFor(light.curves);
     program.use();
-    lights_.set(program, light, origin, illumination.extinction);
+    lights_.set(program, light, origin, illumination.medium);
     add(program);
   }
 }

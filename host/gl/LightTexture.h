@@ -11,8 +11,8 @@ namespace host {
 struct Illumination {
   const std::vector<tyndall::Light>& lights;
   glm::vec3 skyRadiance{0};
-  glm::vec3 extinction{0}; ///< of the medium
-  float maxRadiance = 0;   ///< that the picture holds: what is brighter is cut
+  const tyndall::Medium* medium = nullptr; ///< null: none
+  float maxRadiance = 0;                   ///< that the picture holds: what is brighter is cut
 };
 
 class LightTexture {

@@ -96,17 +96,6 @@ double texelSizeOf(const glm::dmat4& clipFromWorld, int size) {
   return 2.0 / (size * std::min(perUnitX, perUnitY));
 }
 
-glm::vec3 extinctionOf(const tyndall::Medium* medium) {
-  if (!medium) {
-    return glm::vec3(0);
-  }
-  glm::vec3 extinction = toGlm(medium->absorption);
-  for (const tyndall::Constituent& constituent : medium->constituents) {
-    extinction += toGlm(constituent.scattering);
-  }
-  return extinction;
-}
-
 LitProgram::LitProgram(std::string name, const char* vertexSource, const char* fragmentBody)
     : name_(std::move(name)), vertexSource_(vertexSource), fragmentBody_(fragmentBody) {}
 
@@ -141,7 +130,7 @@ void LightUniforms::unbindSamplers() {
 }
 
 void LightUniforms::set(Program& program, const tyndall::Light& light, const glm::dvec3& origin,
-                        const glm::vec3& extinction) const {
+                        const tyndall::Medium* medium) const {
   setSamplers(program);
   program.set("pass", passOf(light.kind));
   program.set("lightColour", toGlm(light.colour));
@@ -149,13 +138,38 @@ void LightUniforms::set(Program& program, const tyndall::Light& light, const glm
   program.set("lightDirection", glm::vec3(glm::normalize(toGlm(light.direction))));
   const double maxRange = std::numeric_limits<float>::max();
   program.set("lightRange", static_cast<float>(std::min(light.range, maxRange)));
-  program.set("extinction", extinction);
+  setMedium(program, medium ? *medium : tyndall::Medium(), origin);
   // KHR_lights_punctual: falloff = clamp(cos(angle) * scale + offset, 0, 1)^2. The least difference of the cosines is
   // the extension's own.
   const double cosOuter = std::cos(light.outerConeAngle);
   const double scale = 1 / std::max(0.001, std::cos(light.innerConeAngle) - cosOuter);
   program.set("spotScaleOffset", glm::vec2(scale, -cosOuter * scale));
   setShadow(program, light, origin);
+}
+
+void LightUniforms::setMedium(Program& program, const tyndall::Medium& medium, const glm::dvec3& origin) {
+  constexpr std::size_t kLayers = tyndall::kMaxHeightLayers;
+  std::vector<glm::dvec3> extinction(1 + kLayers, glm::dvec3(0)); // of what is the same everywhere, and of each layer
+  const auto add = [&](int layer, const tyndall::Rgb& coefficient) {
+    extinction.at(static_cast<std::size_t>(layer + 1)) += glm::dvec3(toGlm(coefficient));
+  };
+  add(medium.absorptionLayer, medium.absorption);
+  for (const tyndall::Constituent& constituent : medium.constituents) {
+    add(constituent.layer, constituent.scattering);
+  }
+  std::vector<glm::vec4> ups(kLayers, glm::vec4(0)), extinctions(kLayers, glm::vec4(0));
+  for (std::size_t i = 0; i < medium.layers.size(); ++i) {
+    const tyndall::HeightLayer& layer = medium.layers[i];
+    const bool isEven = !std::isfinite(layer.scale);
+    const glm::dvec3 up = glm::normalize(toGlm(medium.up)) / layer.scale;
+    constexpr double kDensest = -60;
+    const double ground = isEven ? kDensest : std::max((layer.ground - layer.height) / layer.scale, kDensest);
+    ups[i] = glm::vec4(glm::dvec4(up, isEven ? 0 : glm::dot(up, origin) - layer.height / layer.scale));
+    extinctions[i] = glm::vec4(glm::dvec4(extinction[i + 1], ground));
+  }
+  program.set("extinction", glm::vec3(extinction[0]));
+  program.set("layerUp", ups);
+  program.set("layerExtinction", extinctions);
 }
 
 void LightUniforms::setShadow(Program& program, const tyndall::Light& light, const glm::dvec3& origin) const {

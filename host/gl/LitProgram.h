@@ -34,8 +34,9 @@ public:
   /// The unit that no light uses.
   static constexpr GLuint kBaseUnit = 0;
 
-  /// Sets a light, for positions that are relative to `origin`, in the program in use. extinction: of the medium.
-  void set(Program& program, const tyndall::Light& light, const glm::dvec3& origin, const glm::vec3& extinction) const;
+  /// Sets a light, for positions that are relative to `origin`, in the program in use. medium: null for none.
+  void set(Program& program, const tyndall::Light& light, const glm::dvec3& origin,
+           const tyndall::Medium* medium) const;
 
   /// Ambient light, which needs only the sky.
   static void setAmbient(Program& program, const glm::vec3& skyRadiance);
@@ -43,6 +44,7 @@ public:
   static void unbindSamplers();
 
 private:
+  static void setMedium(Program& program, const tyndall::Medium& medium, const glm::dvec3& origin);
   void setShadow(Program& program, const tyndall::Light& light, const glm::dvec3& origin) const;
   void setCurves(Program& program, const tyndall::Light& light, const glm::dvec3& origin) const;
 
@@ -52,8 +54,5 @@ private:
 
 /// World size of a texel of a view of `size` texels a side at w = 1, which is everywhere for a directional light.
 double texelSizeOf(const glm::dmat4& clipFromWorld, int size);
-
-/// Extinction of a medium, 1/world unit; 0 for none.
-glm::vec3 extinctionOf(const tyndall::Medium* medium);
 
 } // namespace host

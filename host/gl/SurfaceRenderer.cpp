@@ -28,7 +28,7 @@ void SurfaceRenderer::render(const std::vector<glm::dmat4>& worldFromNode, const
                              const std::vector<tyndall::Light>& lights, RenderTargets& targets,
                              const glm::vec3& skyRadiance, const tyndall::Medium* medium, VolumeRenderer& volumes) {
   buffers_.requirePose(worldFromNode);
-  const Job job{worldFromNode, CameraView(camera), {lights, skyRadiance, extinctionOf(medium), targets.maxRadiance()}};
+  const Job job{worldFromNode, CameraView(camera), {lights, skyRadiance, medium, targets.maxRadiance()}};
   resetRenderState();
   applyClipConvention(job.camera.convention);
   gl().BindFramebuffer(GL_FRAMEBUFFER, targets.framebuffer());
@@ -114,7 +114,7 @@ Program& SurfaceRenderer::useAmbient(const Job& job) {
 
 Program& SurfaceRenderer::useLight(const Job& job, const tyndall::Light& light) {
   Program& program = use(job, light.curves);
-  lights_.set(program, light, job.camera.eye, job.light.extinction);
+  lights_.set(program, light, job.camera.eye, job.light.medium);
   return program;
 }
 

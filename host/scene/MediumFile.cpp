@@ -61,12 +61,59 @@ tyndall::Phase parsePhase(const json& value, const std::string& where) {
   refuse(where, value.dump(-1, ' ', true) + " must be isotropic, rayleigh, henyey-greenstein or cornette-shanks");
 }
 
-tyndall::Constituent parseConstituent(const json& value, const std::string& where) {
-  requireObject(value, where, {"scattering", "phase", "g"});
+double parseNumber(const json& value, const std::string& where) {
+  if (!value.is_number() || !std::isfinite(value.get<double>())) {
+    refuse(where, value.dump(-1, ' ', true) + " must be a finite number");
+  }
+  return value.get<double>();
+}
+
+/// The index of one of so many layers.
+int parseLayer(const json& value, std::size_t layers, const std::string& where) {
+  if (!value.is_number_integer() || value < 0 || value >= layers) {
+    refuse(where, value.dump(-1, ' ', true) + " must be the index of one of the " + std::to_string(layers) +
+                      " layers, from 0 on");
+  }
+  return value.get<int>();
+}
+
+tyndall::HeightLayer parseHeightLayer(const json& value, const std::string& where) {
+  requireObject(value, where, {"height", "scale", "ground"});
+  tyndall::HeightLayer layer;
+  if (value.contains("height")) layer.height = parseNumber(value["height"], where + ".height");
+  if (value.contains("ground")) layer.ground = parseNumber(value["ground"], where + ".ground");
+  if (!value.contains("scale")) return layer;
+  layer.scale = parseNumber(value["scale"], where + ".scale");
+  if (!(layer.scale > 0)) refuse(where + ".scale", value["scale"].dump() + " must be greater than 0, world units");
+  return layer;
+}
+
+void parseLayers(const json& value, tyndall::Medium& medium, const std::string& where) {
+  if (value.contains("layers")) {
+    const json& list = value["layers"];
+    if (!list.is_array() || list.size() > tyndall::kMaxHeightLayers) {
+      refuse(where + ".layers", "must be an array of at most " + std::to_string(tyndall::kMaxHeightLayers));
+    }
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      medium.layers.push_back(parseHeightLayer(list[i], where + ".layers[" + std::to_string(i) + "]"));
+    }
+  }
+  if (!value.contains("up")) return;
+  const json& up = value["up"];
+  if (!up.is_array() || up.size() != 3) refuse(where + ".up", "must be 3 numbers");
+  for (std::size_t i = 0; i < 3; ++i) {
+    medium.up[i] = parseNumber(up[i], where + ".up[" + std::to_string(i) + "]");
+  }
+  if (medium.up == tyndall::Vec3{0, 0, 0}) refuse(where + ".up", "must not be 0");
+}
+
+tyndall::Constituent parseConstituent(const json& value, std::size_t layers, const std::string& where) {
+  requireObject(value, where, {"scattering", "phase", "g", "layer"});
   if (!value.contains("scattering")) refuse(where + ".scattering", "is missing");
   tyndall::Constituent constituent;
   constituent.scattering = parseRgb(value["scattering"], where + ".scattering");
   if (value.contains("phase")) constituent.phase = parsePhase(value["phase"], where + ".phase");
+  if (value.contains("layer")) constituent.layer = parseLayer(value["layer"], layers, where + ".layer");
   if (!value.contains("g")) return constituent;
   const bool hasAsymmetry =
       constituent.phase == tyndall::Phase::HenyeyGreenstein || constituent.phase == tyndall::Phase::CornetteShanks;
@@ -81,18 +128,23 @@ tyndall::Constituent parseConstituent(const json& value, const std::string& wher
 } // namespace
 
 tyndall::Medium parseMedium(const json& value, const std::string& where) {
-  requireObject(value, where, {"constituents", "absorption", "farDistance"});
+  requireObject(value, where, {"constituents", "absorption", "absorptionLayer", "farDistance", "layers", "up"});
   tyndall::Medium medium;
+  parseLayers(value, medium, where);
   if (value.contains("constituents")) {
     const json& list = value["constituents"];
     if (!list.is_array() || list.size() > tyndall::kMaxConstituents) {
       refuse(where + ".constituents", "must be an array of at most " + std::to_string(tyndall::kMaxConstituents));
     }
     for (std::size_t i = 0; i < list.size(); ++i) {
-      medium.constituents.push_back(parseConstituent(list[i], where + ".constituents[" + std::to_string(i) + "]"));
+      const std::string field = where + ".constituents[" + std::to_string(i) + "]";
+      medium.constituents.push_back(parseConstituent(list[i], medium.layers.size(), field));
     }
   }
   if (value.contains("absorption")) medium.absorption = parseRgb(value["absorption"], where + ".absorption");
+  if (value.contains("absorptionLayer")) {
+    medium.absorptionLayer = parseLayer(value["absorptionLayer"], medium.layers.size(), where + ".absorptionLayer");
+  }
   if (value.contains("farDistance")) {
     const json& distance = value["farDistance"];
     if (!distance.is_number() || !(distance.get<double>() > 0)) {

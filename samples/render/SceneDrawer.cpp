@@ -69,8 +69,14 @@ void appendLit(std::vector<double>& key, const tyndall::Light& light) {
 void append(std::vector<double>& key, const tyndall::Medium& medium) {
   append(key, medium.absorption);
   key.push_back(medium.farDistance);
-  for (const tyndall::Constituent& constituent : medium.constituents)
+  for (const tyndall::Constituent& constituent : medium.constituents) {
     append(key, constituent.scattering);
+    key.push_back(constituent.layer);
+  }
+  append(key, medium.up);
+  key.push_back(medium.absorptionLayer);
+  for (const tyndall::HeightLayer& layer : medium.layers)
+    append(key, std::initializer_list<double>{layer.height, layer.scale, layer.ground});
 }
 
 } // namespace

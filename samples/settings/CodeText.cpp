@@ -9,7 +9,8 @@ namespace settings {
 namespace {
 
 std::string numberCode(double number, bool isFloat) {
-  if (std::isinf(number)) return isFloat ? "std::numeric_limits<float>::infinity()" : "tyndall::kInfinity";
+  if (std::isinf(number))
+    return (number < 0 ? "-" : "") + std::string(isFloat ? "std::numeric_limits<float>::infinity()" : "tyndall::kInfinity");
   std::string text = textOf(number, isFloat);
   if (!isFloat) return text;
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
@@ -81,6 +82,9 @@ std::string lightCode(const tyndall::Light& light, std::size_t index) {
 
 void addMedium(std::string& code, const tyndall::Medium& medium) {
   addFields(code, "frame.medium", mediumTable(), medium);
+  if (!medium.layers.empty()) code += fmt::format("  frame.medium.layers.resize({});\n", medium.layers.size());
+  for (std::size_t i = 0; i < medium.layers.size(); ++i)
+    addFields(code, fmt::format("frame.medium.layers[{}]", i), layerTable(), medium.layers[i]);
   if (medium.constituents.empty()) return;
   code += fmt::format("  frame.medium.constituents.resize({});\n", medium.constituents.size());
   for (std::size_t i = 0; i < medium.constituents.size(); ++i)

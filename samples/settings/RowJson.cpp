@@ -8,10 +8,10 @@ namespace settings {
 
 namespace {
 
-constexpr const char* kInfinityText = "infinity";
+constexpr const char *kInfinityText = "infinity", *kMinusInfinityText = "-infinity";
 
 Json numberJson(const Row& row, double number) {
-  if (std::isinf(number)) return kInfinityText;
+  if (std::isinf(number)) return number > 0 ? kInfinityText : kMinusInfinityText;
   if (row.type == Type::Whole) return static_cast<std::int64_t>(number);
   return number;
 }
@@ -24,6 +24,7 @@ Value choiceOf(const Row& row, const Json& value) {
 
 double numberOf(const Json& value) {
   if (value == kInfinityText) return std::numeric_limits<double>::infinity();
+  if (value == kMinusInfinityText) return -std::numeric_limits<double>::infinity();
   return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -4,6 +4,7 @@
 namespace settings {
 
 using tyndall::Constituent;
+using tyndall::HeightLayer;
 using tyndall::Light;
 using tyndall::Medium;
 using tyndall::MediumBoundary;
@@ -72,6 +73,9 @@ const Table<Medium>& mediumTable() {
                  "absorption coefficient, 1/world unit"),
           number("farDistance", &Medium::farDistance, also(tyndall::kInfinity, above(0, kMostDouble)),
                  "where rays to the sky end, world units"),
+          number("absorptionLayer", &Medium::absorptionLayer, from(-1, tyndall::kMaxHeightLayers - 1),
+                 "the layer whose density absorption is multiplied by; -1: none"),
+          vector("up", &Medium::up, Type::Direction, finite(), "along which the density of layers falls"),
       }};
   return table;
 }
@@ -86,6 +90,22 @@ const Table<Constituent>& constituentTable() {
           number("g", &Constituent::g, between(-1, 1),
                  "asymmetry of HenyeyGreenstein and CornetteShanks: forward above 0, backward below")
               .withSlider(-0.99, 0.99),
+          number("layer", &Constituent::layer, from(-1, tyndall::kMaxHeightLayers - 1),
+                 "the layer whose density scattering is multiplied by; -1: none"),
+      }};
+  return table;
+}
+
+const Table<HeightLayer>& layerTable() {
+  static const Table<HeightLayer> table{
+      "HeightLayer",
+      {
+          number("height", &HeightLayer::height, finite(), "where density is 1, world units along up"),
+          number("scale", &HeightLayer::scale, also(tyndall::kInfinity, above(0, kMostDouble)),
+                 "over so much height density falls to 1/e, world units")
+              .withSlider(0.1, 1e4, true),
+          number("ground", &HeightLayer::ground, also(-tyndall::kInfinity, finite()),
+                 "below this height density is that at it, world units"),
       }};
   return table;
 }
@@ -123,6 +143,7 @@ const std::vector<Left>& leftToEngines() {
       {"Frame.reuse", "reuseTable()"},
       {"Frame.objects", "what the engine moved"},
       {"Medium.constituents", "a list of constituentTable()"},
+      {"Medium.layers", "a list of layerTable()"},
       {"Light.boundary", "its fields are rows"},
       {"Light.shadow", texture},
       {"Light.glass", texture},

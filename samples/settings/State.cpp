@@ -6,6 +6,17 @@
 
 namespace settings {
 
+std::string contradictionIn(const tyndall::Medium& medium) {
+  const auto layers = static_cast<int>(medium.layers.size());
+  if (medium.absorptionLayer >= layers)
+    return fmt::format("absorptionLayer: {} must be one of its {} layers, or -1", medium.absorptionLayer, layers);
+  for (std::size_t i = 0; i < medium.constituents.size(); ++i)
+    if (medium.constituents[i].layer >= layers)
+      return fmt::format("constituents[{}].layer: {} must be one of its {} layers, or -1", i,
+                         medium.constituents[i].layer, layers);
+  return {};
+}
+
 std::string contradictionIn(const State& state) {
   using tyndall::DebugView;
   using tyndall::Technique;
@@ -25,6 +36,8 @@ std::string contradictionIn(const State& state) {
       return fmt::format("lights[{}].innerConeAngle: {} must not exceed outerConeAngle, {}", i, light.innerConeAngle,
                          light.outerConeAngle);
   }
+  const std::string inMedium = state.medium ? contradictionIn(*state.medium) : "";
+  if (!inMedium.empty()) return "medium." + inMedium;
   return {};
 }
 
@@ -43,6 +56,8 @@ std::string breachIn(const tyndall::Medium& medium) {
   std::string breach = breachIn("medium", mediumTable(), medium);
   for (std::size_t i = 0; i < medium.constituents.size() && breach.empty(); ++i)
     breach = breachIn(fmt::format("medium.constituents[{}]", i), constituentTable(), medium.constituents[i]);
+  for (std::size_t i = 0; i < medium.layers.size() && breach.empty(); ++i)
+    breach = breachIn(fmt::format("medium.layers[{}]", i), layerTable(), medium.layers[i]);
   return breach;
 }
 

@@ -81,6 +81,7 @@ inline int renderedHeight(const State& state) { return state.height * state.supe
 
 /// Why the picture cannot be drawn though each field keeps its rule: "FIELD: why"; empty if it can.
 std::string contradictionIn(const State& state);
+std::string contradictionIn(const tyndall::Medium& medium);
 
 /// The same of fields that break their rules, too.
 std::string problemIn(const State& state);

@@ -25,6 +25,9 @@ Json jsonOf(const tyndall::Medium& medium) {
   json["constituents"] = Json::array();
   for (const tyndall::Constituent& constituent : medium.constituents)
     json["constituents"].push_back(jsonOf(constituentTable(), constituent));
+  json["layers"] = Json::array();
+  for (const tyndall::HeightLayer& layer : medium.layers)
+    json["layers"].push_back(jsonOf(layerTable(), layer));
   return json;
 }
 
@@ -39,16 +42,23 @@ void requireList(const Json& json, std::size_t most, const std::string& where) {
   if (!json.is_array() || json.size() > most) refuse(where, fmt::format("must be a list of at most {}", most));
 }
 
+/// A list of structs, if it is there.
+template <typename Owner>
+void readList(const Table<Owner>& table, std::vector<Owner>& list, std::size_t most, const Json& json,
+              const std::string& name, const std::string& where) {
+  if (!json.contains(name)) return;
+  requireList(json[name], most, where + "." + name);
+  list.resize(json[name].size());
+  for (std::size_t i = 0; i < list.size(); ++i)
+    readInto(table, list[i], json[name][i], fmt::format("{}.{}[{}]", where, name, i));
+}
+
 tyndall::Medium mediumOf(const Json& json, const std::string& where) {
   tyndall::Medium medium;
-  readInto(mediumTable(), medium, json, where, {"constituents"});
-  if (!json.contains("constituents")) return medium;
-  const Json& list = json["constituents"];
-  requireList(list, tyndall::kMaxConstituents, where + ".constituents");
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    medium.constituents.emplace_back();
-    readInto(constituentTable(), medium.constituents.back(), list[i], fmt::format("{}.constituents[{}]", where, i));
-  }
+  readInto(mediumTable(), medium, json, where, {"constituents", "layers"});
+  readList(constituentTable(), medium.constituents, tyndall::kMaxConstituents, json, "constituents", where);
+  readList(layerTable(), medium.layers, tyndall::kMaxHeightLayers, json, "layers", where);
+  if (const std::string problem = contradictionIn(medium); !problem.empty()) refuse(where, problem);
   return medium;
 }
 

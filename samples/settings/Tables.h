@@ -13,8 +13,9 @@ extern const std::vector<Choice> kProfiles; ///< of tyndall::Profile, whose valu
 const Table<tyndall::Settings>& settingsTable();
 const Table<tyndall::Reuse>& reuseTable();
 const Table<tyndall::Tuning>& tuningTable();
-const Table<tyndall::Medium>& mediumTable(); ///< all but the constituents
+const Table<tyndall::Medium>& mediumTable(); ///< all but constituents and layers
 const Table<tyndall::Constituent>& constituentTable();
+const Table<tyndall::HeightLayer>& layerTable();
 const Table<StateLight>& lightTable(); ///< all of a tyndall::Light that is a person's to set, and what StateLight adds
 const Table<LookAt>& lookAtTable();
 const Table<State>& pictureTable();

@@ -69,7 +69,7 @@ private:
     const Ray ray = rays_.ray(x, y);
     const double hit = rays_.distance(x, y, depth);
     const double end = std::isinf(hit) ? scene_.medium.farDistance : std::max(0.0, hit);
-    PixelAnswer answer{Rgb(0), transmittance(scene_.medium, end)};
+    PixelAnswer answer{Rgb(0), transmittance(scene_.medium, ray, end)};
     for (std::size_t i = 0; i < lights_.size(); ++i) {
       const Airlight airlight(scene_.medium, scene_.lights[i], ray);
       answer.inscatter += lightOf(i, airlight, ray, end);

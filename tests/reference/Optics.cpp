@@ -67,7 +67,8 @@ Rgb extinction(const tyndall::Medium& medium) {
   return sum;
 }
 
-Rgb transmittance(const tyndall::Medium& medium, double distance) {
+Rgb transmittance(const tyndall::Medium& medium, const Ray& ray, double distance) {
+  if (isLayered(medium)) return glm::exp(-opticalDepth(medium, ray.origin, ray.at(std::min(distance, 1e30))));
   const Rgb sigma = extinction(medium);
   Rgb result{1};
   for (int c = 0; c < 3; ++c)
@@ -93,6 +94,11 @@ Airlight::Airlight(const tyndall::Medium& medium, const tyndall::Light& light, c
   for (int c = 0; c < 3; ++c)
     if (extinction_[c] > 0) thinnest = std::min(thinnest, extinction_[c]);
   support_ = {0, kUnderflow / thinnest};
+  if (isLayered(medium)) {
+    layers_.emplace(medium, light, ray);
+    support_ = {0, layers_->end()};
+    breaks_ = layers_->breaks();
+  }
   isPoint_ = light.kind != tyndall::LightKind::Directional;
   if (isPoint_)
     preparePoint(light);
@@ -142,6 +148,10 @@ Rgb Airlight::directionalPiece(double s0, double s1) const {
 
 Airlight::Node Airlight::directionalNode(double a, double width, double x) const {
   const double s = a + x * width;
+  if (layers_) {
+    const double cosTheta = glm::dot(glm::normalize(toVec3(light_.direction)), -ray_.direction);
+    return {s, colour_ * layers_->scattering(s, cosTheta) * glm::exp(-layers_->depth(s))};
+  }
   return {s, source_ * expExtinction(s + std::max(0.0, boundaryOffset_ + boundarySlope_ * s))};
 }
 
@@ -223,6 +233,10 @@ Airlight::Node Airlight::pointNode(const Panel& panel, double x) const {
     const double falloff = std::clamp((cosAngle - cosOuter_) / (cosInner_ - cosOuter_), 0.0, 1.0);
     strength *= falloff * falloff;
   }
+  if (layers_) {
+    const double s = std::max(foot_ + t, 0.0);
+    return {foot_ + t, colour_ * layers_->scattering(s, -t / r) * glm::exp(-layers_->depth(s)) * strength};
+  }
   const double path = foot_ + (panel.side > 0 ? e : q);
   return {foot_ + t, colour_ * phaseSum(-t / r) * expExtinction(path) * strength};
 }
@@ -287,6 +301,7 @@ Rgb Airlight::pointPiece(double s0, double s1) const {
 }
 
 Rgb Airlight::span(double s0, double s1) const {
+  if (layers_) return weighted(s0, s1, [](double) { return 1.0; });
   Rgb sum{0};
   forEachPiece(s0, s1, [&](double a, double b) { sum += isPoint_ ? pointPiece(a, b) : directionalPiece(a, b); });
   return sum;

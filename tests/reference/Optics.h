@@ -1,10 +1,12 @@
 // Single scattering along one ray from one light, without shadows, in double precision.
 #pragma once
 
+#include "HeightFog.h"
 #include "Ray.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tyndall/tyndall.h>
 
 namespace reference {
@@ -12,11 +14,11 @@ namespace reference {
 /// Phase function in 1/sr; theta is the angle between the light's travel direction and the direction to the eye.
 double phase(tyndall::Phase kind, double g, double cosTheta);
 
-/// All scattering plus absorption, 1/world unit.
+/// All scattering plus absorption, 1/world unit; of layers where their density is 1.
 Rgb extinction(const tyndall::Medium& medium);
 
-/// exp(-extinction distance); the distance may be infinite.
-Rgb transmittance(const tyndall::Medium& medium, double distance);
+/// exp(-optical depth) from the ray's origin on; the distance may be infinite.
+Rgb transmittance(const tyndall::Medium& medium, const Ray& ray, double distance);
 
 /// The cone falloff of KHR_lights_punctual in [0, 1]; a hard step when the two cones' cosines differ by less than 1e-6.
 double spotFalloff(const tyndall::Light& light, double cosAngle);
@@ -27,7 +29,7 @@ double spotFalloff(const tyndall::Light& light, double cosAngle);
 /// perpendicular from the light (length h) to the ray, and r = sqrt(t^2 + h^2). On each side of the foot the
 /// substitution  e = |t| + r = e0 exp(w)  turns dt/r^2 into dw/r and leaves an integrand whose phase, falloff and
 /// 1/r vary on a scale of 1 in w whatever h is, h = 0 included. The light's path s + r is foot + e behind the foot
-/// and foot + h^2/e before it, free of cancellation.
+/// and foot + h^2/e before it, free of cancellation. Media with layers are integrated by adaptive quadrature.
 class Airlight {
 public:
   Airlight(const tyndall::Medium& medium, const tyndall::Light& light, const Ray& ray);
@@ -45,7 +47,9 @@ public:
   template <class Weight>
   Rgb weighted(double s0, double s1, const Weight& weight) const {
     Rgb sum{0};
-    forEachPiece(s0, s1, [&](double a, double b) { sum += weightedPiece(a, b, weight); });
+    forEachPiece(s0, s1, [&](double a, double b) {
+      sum += layers_ ? layeredPiece(a, b, weight) : weightedPiece(a, b, weight);
+    });
     return sum;
   }
 
@@ -127,8 +131,39 @@ private:
     return sum * (0.5 * whole.width / count);
   }
 
+  /// Through layers: by the few nodes that a short piece takes, or in parts of which the first is as long as what
+  /// changes there fastest, and each next one twice as long.
+  template <class Weight>
+  Rgb layeredPiece(double a, double b, const Weight& weight) const {
+    constexpr double kShort = 0.02;
+    double step = 1 / std::max(layers_->rate(a), 1e-300);
+    const bool isShort = b - a < kShort * step && b - a < kShort / std::max(layers_->rate(b), 1e-300);
+    Rgb sum{0};
+    for (double from = a, to = a; from < b; from = to, step *= 2) {
+      to = isShort || from + 1.5 * step >= b ? b : from + step;
+      const Panel part = isPoint_ ? panel(from, to) : Panel{1, from, to - from};
+      const auto at = [&](double x) {
+        const Node node = isPoint_ ? pointNode(part, x) : directionalNode(from, to - from, x);
+        return node.value * weight(node.s);
+      };
+      const int count = isPoint_ ? static_cast<int>(std::ceil(part.width / 2)) : 1;
+      Rgb own{0};
+      if (isShort && part.width < (isPoint_ ? kShort : kInfinity)) {
+        const Nodes nodes = nodesFor(kInfinity);
+        for (int k = 0; k < nodes.count; ++k)
+          own += 0.5 * nodes.weights[k] * at(0.5 + 0.5 * nodes.abscissas[k]);
+      } else {
+        for (int i = 0; i < count; ++i)
+          addAdaptive(at, static_cast<double>(i) / count, (i + 1.0) / count, own, kDeepest);
+      }
+      sum += own * part.width;
+    }
+    return sum;
+  }
+
   Ray ray_;
   tyndall::Light light_;
+  std::optional<HeightFog> layers_; ///< of a medium that has them
   std::vector<tyndall::Constituent> constituents_;
   Rgb colour_;
   Rgb extinction_;

@@ -188,7 +188,7 @@ PixelAnswer SceneExact::pixel(const SceneView& view, const CameraRays& rays, int
   const Interval visible = rays.nearToFar(x, y);
   const double hit = firstHit(ray, visible.begin, visible.end);
   const double end = std::isinf(hit) ? view.medium.farDistance : hit;
-  PixelAnswer answer{Rgb(0), transmittance(view.medium, end)};
+  PixelAnswer answer{Rgb(0), transmittance(view.medium, ray, end)};
   for (const tyndall::Light& light : view.lights) {
     const Airlight airlight(view.medium, light, ray);
     const Interval reach = airlight.support();

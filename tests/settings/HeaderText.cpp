@@ -69,6 +69,7 @@ std::set<std::string> knownFields() {
   addRows(known, "Tuning", settings::tuningTable());
   addRows(known, "Medium", settings::mediumTable());
   addRows(known, "Constituent", settings::constituentTable());
+  addRows(known, "HeightLayer", settings::layerTable());
   addRows(known, "Light", settings::lightTable());
   addRows(known, "MediumBoundary", settings::lightTable(), "boundary.");
   known.erase("Light.on"); // which StateLight adds
@@ -92,7 +93,8 @@ std::vector<std::string> unknownFields(const std::string& header) {
   const std::set<std::string> known = knownFields();
   std::set<std::string> declared;
   for (const char* name :
-       {"Frame", "Config", "Settings", "Reuse", "Tuning", "Medium", "Constituent", "Light", "MediumBoundary"})
+       {"Frame", "Config", "Settings", "Reuse", "Tuning", "Medium", "Constituent", "HeightLayer", "Light",
+                           "MediumBoundary"})
     for (const std::string& field : fieldsOf(header, name))
       declared.insert(std::string(name) + "." + field);
   std::vector<std::string> unknown;

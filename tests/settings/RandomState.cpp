@@ -62,6 +62,13 @@ void randomiseScene(settings::State& state, std::mt19937& random) {
     state.medium->constituents.resize(static_cast<std::size_t>(below(tyndall::kMaxConstituents + 1, random)));
     for (tyndall::Constituent& constituent : state.medium->constituents)
       randomise(constituent, settings::constituentTable(), random);
+    state.medium->layers.resize(static_cast<std::size_t>(below(tyndall::kMaxHeightLayers + 1, random)));
+    for (tyndall::HeightLayer& layer : state.medium->layers)
+      randomise(layer, settings::layerTable(), random);
+    const int last = static_cast<int>(state.medium->layers.size()) - 1;
+    for (tyndall::Constituent& constituent : state.medium->constituents)
+      constituent.layer = std::min(constituent.layer, last);
+    state.medium->absorptionLayer = std::min(state.medium->absorptionLayer, last);
   }
   if (below(2, random) == 0) {
     state.lights.emplace(static_cast<std::size_t>(below(tyndall::kMaxLights + 1, random)));
@@ -99,6 +106,10 @@ void compareScenes(std::vector<std::string>& found, const settings::State& a, co
   for (std::size_t i = 0; i < a.medium->constituents.size(); ++i)
     compare(found, fmt::format("medium.constituents[{}]", i), settings::constituentTable(), a.medium->constituents[i],
             b.medium->constituents[i]);
+  if (a.medium->layers.size() != b.medium->layers.size()) return found.emplace_back("medium.layers"), void();
+  for (std::size_t i = 0; i < a.medium->layers.size(); ++i)
+    compare(found, fmt::format("medium.layers[{}]", i), settings::layerTable(), a.medium->layers[i],
+            b.medium->layers[i]);
 }
 
 void compareKept(std::vector<std::string>& found, const settings::State& a, const settings::State& b) {

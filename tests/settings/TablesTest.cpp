@@ -104,6 +104,9 @@ TEST_CASE("settings may be what the effect allows, and nothing else") {
   tyndall::Frame frame = validFrame();
   checkRanges(settings::settingsTable(), "settings.", frame, [](tyndall::Frame& f) -> auto& { return f.settings; });
   checkRanges(settings::reuseTable(), "reuse.", frame, [](tyndall::Frame& f) -> auto& { return f.reuse; });
+  frame.medium.layers.resize(tyndall::kMaxHeightLayers);
+  checkRanges(settings::layerTable(), "medium.layers[1].", frame,
+              [](tyndall::Frame& f) -> auto& { return f.medium.layers[1]; });
   checkRanges(settings::mediumTable(), "medium.", frame, [](tyndall::Frame& f) -> auto& { return f.medium; });
   frame.medium.constituents.resize(1);
   checkRanges(settings::constituentTable(), "medium.constituents[0].", frame,
@@ -146,6 +149,7 @@ TEST_CASE("every setting has a name of its own, a line of help, and a default th
   checkTexts(settings::tuningTable(), options);
   checkTexts(settings::mediumTable(), options);
   checkTexts(settings::constituentTable(), options);
+  checkTexts(settings::layerTable(), options);
   checkTexts(settings::lightTable(), options);
   checkTexts(settings::lookAtTable(), options);
   checkTexts(settings::pictureTable(), options);

@@ -3,8 +3,8 @@
 // This header is the whole public interface. An engine creates one Effect per GL context, describes a frame and calls
 // render() once; the effect adds single-scattered light with volumetric shadows to the engine's colour texture.
 //
-//     out(v) = back(v) T(d) + sum over lights of  integral_0^d T(s) [sum_k sigma_k p_k] E V G ds,   T(s) = exp(-sigma_t
-//     s)
+//     out(v) = back(v) T(d) + sum over lights of  integral_0^d T(s) [sum_k sigma_k p_k] E V G ds,
+//     T(s) = exp(-integral_0^s sigma_t)
 //
 // Conventions. World units are the engine's own: nothing depends on their scale. Matrices are column-major, column
 // vectors, destinationFromSource. Colours are linear RGB. Angles are radians. Texture row 0 is the bottom row, y = -1
@@ -33,6 +33,7 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr Mat4 kIdentity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
 inline constexpr int kMaxConstituents = 4;  ///< scattering constituents of a medium
+inline constexpr int kMaxHeightLayers = 2;  ///< its layers that thin out with height
 inline constexpr int kMaxShadowViews = 6;   ///< shadow views of a light: cascades or cube faces
 inline constexpr int kMaxLights = 16;       ///< lights of a frame
 inline constexpr int kMaxImageSize = 16384; ///< pixels per side of every texture
@@ -240,14 +241,27 @@ enum class Phase {
 struct Constituent {
   Rgb scattering = {0, 0, 0}; ///< scattering coefficient, 1/world unit, finite and >= 0
   Phase phase = Phase::Isotropic;
-  float g = 0; ///< asymmetry of HenyeyGreenstein and CornetteShanks, -1 < g < 1
+  float g = 0;    ///< asymmetry of HenyeyGreenstein and CornetteShanks, -1 < g < 1
+  int layer = -1; ///< of Medium::layers, whose density scattering is to be multiplied by; -1: it is the same everywhere
 };
 
-/// A homogeneous medium that fills all space. Extinction is the sum of all scattering and the absorption.
+/// Density that thins out with height, as fog's, haze's and the air's does: exp(-(h - height) / scale) at the height
+/// h = dot(up, x), up the unit vector along Medium::up; below the ground what it is at the ground. It is at most e^60,
+/// about 1e26.
+struct HeightLayer {
+  double height = 0;          ///< where density is 1: coefficients are those here; world units, finite
+  double scale = kInfinity;   ///< over so much height density falls to 1/e; world units, > 0; infinite: 1 everywhere
+  double ground = -kInfinity; ///< world units, not NaN, < infinity
+};
+
+/// A medium that fills all space. Extinction is the sum of all scattering and the absorption.
 struct Medium {
   std::vector<Constituent> constituents; ///< at most 4
   Rgb absorption = {0, 0, 0};            ///< 1/world unit, finite and >= 0
   double farDistance = kInfinity;        ///< where rays to the sky end, world units, > 0
+  int absorptionLayer = -1;              ///< of layers, as Constituent::layer
+  std::vector<HeightLayer> layers = {};  ///< at most 2
+  Vec3 up = {0, 1, 0};                   ///< any length but 0
 };
 
 /// All but Exact need shadow views whose centre is the light itself, its direction or its position, and refuse others,

@@ -1,6 +1,7 @@
 #include "optics/Blocks.h"
 
 #include "optics/EngineDepth.h"
+#include "optics/HeightFog.h"
 #include "optics/Matrices.h"
 
 #include <algorithm>
@@ -55,9 +56,9 @@ glm::vec4 phaseNormAndShape(const Constituent& c, double& norm) {
   return {1, 0, 0, 1};
 }
 
-// Distance behind which no channel that scatters shows anything.
+// Distance behind which no channel that scatters shows anything, whatever layers add to what is everywhere.
 double visibleDistance(const Medium& medium) {
-  const glm::dvec3 extinction = extinctionOf(medium), scattering = scatteringOf(medium);
+  const glm::dvec3 extinction = extinctionOf(medium, kEverywhere), scattering = scatteringOf(medium);
   double distance = 0;
   for (int c = 0; c < 3; ++c)
     if (scattering[c] > 0) distance = std::max(distance, kInvisibleDepth / extinction[c]);
@@ -96,6 +97,19 @@ void setCameraRays(blocks::FrameBlock& block, const Frame& frame) {
   block.depthScale = reversed ? 1 : -1;
   block.isOrthographic = orthographic ? 1 : 0;
   block.skyEnd = static_cast<float>(std::min(frame.medium.farDistance, kEndless));
+}
+
+void setLayers(blocks::FrameBlock& block, const Frame& frame) {
+  if (!isLayered(frame.medium)) return;
+  block.layerCount = static_cast<int>(frame.medium.layers.size());
+  block.onlyLayer = onlyLayerOf(frame.medium);
+  const glm::dvec3 origin = cameraOrigin(frame.camera);
+  for (int i = 0; i < block.layerCount; ++i) {
+    const Density density = densityOf(frame.medium, i, origin);
+    block.layerUp[i] = glm::clamp(glm::dvec4(density.gradient, density.offset), -kEndless, kEndless);
+    block.layerExtinction[i] =
+        glm::dvec4(glm::min(extinctionOf(frame.medium, i), kBrightest), std::min(density.ground, kEndless));
+  }
 }
 
 } // namespace
@@ -147,23 +161,27 @@ glm::dvec3 scatteringOf(const Medium& medium) {
 glm::dvec3 extinctionOf(const Medium& medium) { return scatteringOf(medium) + glm::dvec3(toGlm(medium.absorption)); }
 
 bool isMonochrome(const Medium& medium) {
-  const glm::dvec3 extinction = extinctionOf(medium);
-  if (extinction.x != extinction.y || extinction.y != extinction.z) return false;
+  const auto isGrey = [](const glm::dvec3& v) { return v.x == v.y && v.y == v.z; };
+  for (int i = kEverywhere; i < static_cast<int>(medium.layers.size()); ++i)
+    if (!isGrey(extinctionOf(medium, i))) return false;
   const std::vector<glm::dvec3> shares = sharesOf(medium);
-  return std::all_of(shares.begin(), shares.end(), [](const glm::dvec3& s) { return s.x == s.y && s.y == s.z; });
+  return std::all_of(shares.begin(), shares.end(), isGrey);
 }
 
 blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
   blocks::FrameBlock block{};
   setCameraRays(block, frame);
-  block.extinction = glm::min(extinctionOf(frame.medium), kBrightest);
+  block.extinction = glm::min(
+      isLayered(frame.medium) ? extinctionOf(frame.medium, kEverywhere) : extinctionOf(frame.medium), kBrightest);
   block.visibleEnd = static_cast<float>(visibleDistance(frame.medium));
   const std::vector<glm::dvec3> shares = sharesOf(frame.medium);
   for (std::size_t k = 0; k < shares.size(); ++k) {
     double norm = 0;
     block.phaseShape[k] = phaseNormAndShape(frame.medium.constituents[k], norm);
-    block.phaseWeight[k] = glm::vec4(glm::vec3(shares[k] * norm), 0);
+    block.phaseWeight[k] = glm::vec4(glm::vec3(shares[k] * norm), frame.medium.constituents[k].layer + 1);
   }
+  block.onlyLayer = kEverywhere;
+  setLayers(block, frame);
   block.lightCeiling = sizes.lightCeiling;
   block.colourMax = sizes.colourMax;
   block.outputMax = sizes.outputMax;

@@ -40,10 +40,10 @@ double farthestEnd(const blocks::FrameBlock& block);
 /// The greatest value of the phase function of all constituents together, per channel, 1/sr.
 glm::dvec3 peakPhase(const blocks::FrameBlock& block);
 
-/// Extinction sigma_t = scattering of all constituents + absorption, 1/world unit.
+/// Extinction sigma_t = scattering of all constituents + absorption, where the density of layers is 1; 1/world unit.
 glm::dvec3 extinctionOf(const Medium& medium);
 
-/// Sum of all scattering coefficients, 1/world unit.
+/// Sum of all scattering coefficients, likewise.
 glm::dvec3 scatteringOf(const Medium& medium);
 
 /// True if a ray of light fares alike in R, G and B: equal extinction, and constituents whose shares of the scattering

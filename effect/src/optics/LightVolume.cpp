@@ -1,6 +1,7 @@
 #include "optics/LightVolume.h"
 
 #include "optics/Blocks.h"
+#include "optics/HeightFog.h"
 #include "optics/Matrices.h"
 
 #include <algorithm>
@@ -141,7 +142,9 @@ bool meets(const ReachedVolume& light, const dvec3& begin, const dvec3& directio
 LightShare shareOf(const Light& light, const Camera& camera, const Medium& medium) {
   const double colour = std::max({light.colour[0], light.colour[1], light.colour[2]});
   if (light.kind == LightKind::Directional) {
-    const dvec3 extinction = extinctionOf(medium);
+    dvec3 extinction = extinctionOf(medium, kEverywhere); // at the eye
+    for (int i = 0; i < static_cast<int>(medium.layers.size()); ++i)
+      extinction += densityOf(medium, i, cameraOrigin(camera)).at(dvec3(0)) * extinctionOf(medium, i);
     double sigma = kInfinity; // of the clearest channel that is dimmed
     for (int c = 0; c < 3; ++c)
       if (extinction[c] > 0) sigma = std::min(sigma, extinction[c]);
@@ -183,14 +186,16 @@ double halfPixelAt(const dvec3& lamp, const blocks::FrameBlock& block) {
 
 double brightestInscatter(const Frame& frame, const Light& light) {
   const blocks::FrameBlock block = frameBlock(frame, {});
+  const dvec3 origin = cameraOrigin(frame.camera), way = longestWay(frame.medium, origin, 1e300);
   const blocks::LightBlock lamp = lightBlock(frame, light, 0, 0);
   const dvec3 phase = peakPhase(block);
-  const double passed = glm::pi<double>() / std::max(halfPixelAt(dvec3(lamp.lightPosition), block), 1e-300);
+  const double passed = greatestDensity(frame.medium, origin, dvec3(lamp.lightPosition)) * glm::pi<double>() /
+                        std::max(halfPixelAt(dvec3(lamp.lightPosition), block), 1e-300);
   double brightest = 0;
   for (int c = 0; c < 3; ++c)
     if (lamp.lightColour[c] > 0)
       brightest = std::max(brightest, lamp.lightColour[c] * phase[c] *
-                                          (light.kind == LightKind::Directional ? 1 / block.extinction[c] : passed));
+                                          (light.kind == LightKind::Directional ? way[c] : passed));
   return brightest;
 }
 

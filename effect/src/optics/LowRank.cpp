@@ -1,6 +1,7 @@
 #include "optics/LowRank.h"
 
 #include "optics/Blocks.h"
+#include "optics/HeightFog.h"
 
 #include <Eigen/SVD>
 #include <algorithm>
@@ -208,7 +209,7 @@ void LowRankTable::describe(blocks::EpipolarBlock& block) const {
 
 std::optional<LowRankTable> makeLowRank(const Frame& frame, const Light& light, const SliceTable& slices) {
   const bool directional = light.kind == LightKind::Directional;
-  if (directional && light.boundary.enabled) return std::nullopt;
+  if ((directional && light.boundary.enabled) || isLayered(frame.medium)) return std::nullopt;
   if (!directional && frameBlock(frame, {}).isOrthographic != 0) return std::nullopt;
   const Kernel kernel(frame, light, slices);
   if (kernel.isEmpty()) return std::nullopt;

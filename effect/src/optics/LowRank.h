@@ -37,7 +37,7 @@ struct LowRankTable {
 };
 
 /// By settings.lowRankTerms. None where the airlight depends on more than two coordinates (an orthographic camera
-/// before a lamp, a medium with a boundary) or no ray has an angle to the light.
+/// before a lamp, a medium with a boundary or layers) or no ray has an angle to the light.
 std::optional<LowRankTable> makeLowRank(const Frame& frame, const Light& light, const SliceTable& slices);
 
 } // namespace tyndall::optics

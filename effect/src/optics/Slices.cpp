@@ -2,6 +2,7 @@
 
 #include "Rounding.h"
 #include "optics/Blocks.h"
+#include "optics/HeightFog.h"
 #include "optics/Jitter.h"
 #include "optics/Matrices.h"
 
@@ -200,7 +201,9 @@ void setStored(blocks::EpipolarBlock& block, const Frame& frame, const Light& li
   const blocks::FrameBlock camera = frameBlock(frame, {});
   const double longest = std::min<double>(farthestEnd(camera), camera.visibleEnd);
   dvec3 scale(0.5 * kLargestHalf / longest);
-  if (light.kind == LightKind::Directional) {
+  if (light.kind == LightKind::Directional && isLayered(frame.medium)) {
+    scale = 0.5 * kLargestHalf / glm::max(longestWay(frame.medium, cameraOrigin(frame.camera), longest), 1e-30);
+  } else if (light.kind == LightKind::Directional) {
     scale = glm::max(scale, 0.5 * kLargestHalf * dvec3(camera.extinction));
   } else {
     double distance = glm::length(dvec3(lamp.lightPosition));
@@ -208,6 +211,7 @@ void setStored(blocks::EpipolarBlock& block, const Frame& frame, const Light& li
     const dvec3 peak = peakPhase(camera);
     scale =
         dvec3(kLargestHalf / 256 / glm::pi<double>() * std::max(distance, 1e-30) / std::max({peak.x, peak.y, peak.z}));
+    scale /= greatestDensity(frame.medium, cameraOrigin(frame.camera), dvec3(lamp.lightPosition));
   }
   block.storedScale = glm::clamp(scale, 1e-30, 1e30);
   block.leastCoordinate = static_cast<float>(std::log2(longest) + 2 - kCoordinates);

@@ -27,7 +27,10 @@ bool usesTintSums(const LightPlanner& light) {
 Tables planLowRank(LightPlanner& light) {
   if (light.frame.settings.technique != Technique::LowRank) return {};
   auto table = optics::makeLowRank(light.frame, light.light, light.geometry);
-  if (!table) return {};
+  if (!table) {
+    light.skip("low rank", "the light in a plane through eye and light depends on more than two coordinates");
+    return {};
+  }
   light.extent.lowRankSets = table->sets;
   table->describe(light.block);
   light.upload(Resource::LowRankRays, std::move(table->rays));

@@ -75,7 +75,8 @@ void plan(LightPlanner& light) {
 }
 
 bool tellsShares(const LightPlanner& light) {
-  return isMade(light) && light.light.kind == LightKind::Directional && !light.light.boundary.enabled;
+  return isMade(light) && light.light.kind == LightKind::Directional && !light.light.boundary.enabled &&
+         !light.variant.layered;
 }
 
 } // namespace tyndall::passes::slice_choice

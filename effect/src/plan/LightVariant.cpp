@@ -9,6 +9,7 @@ gl::Definitions definitionsOf(const LightVariant& v) {
                                  {"FILTER_BILINEAR", v.bilinear},
                                  {"GLASS", v.glass},
                                  {"CURVES", v.curves},
+                                 {"HEIGHT", v.layered},
                                  {"MONOCHROME", v.monochrome},
                                  {"COMPOSITE", v.composite}};
   if (!v.dualSource) definitions.emplace_back("ONE_SOURCE", 1);
@@ -17,7 +18,7 @@ gl::Definitions definitionsOf(const LightVariant& v) {
 
 LightVariant served(LightVariant variant) {
   const int kinds = (variant.bilinear ? 1 : 0) + (variant.glass ? 1 : 0) + (variant.curves ? 1 : 0);
-  const bool isSunThroughGlass = variant.lightKind == 0 && !variant.bilinear; // and smoke
+  const bool isSunThroughGlass = variant.lightKind == 0 && !variant.bilinear && !variant.layered; // and smoke
   if (variant.shadowViews == 0 || (kinds > 1 && !isSunThroughGlass)) variant.monochrome = false;
   return variant;
 }
@@ -35,16 +36,17 @@ std::vector<LightVariant> allLightVariants(bool dualSource) {
         all.push_back(served(v));
       }
   };
-  for (int kind = 0; kind < 3; ++kind) {
+  for (int kind = 0; kind < 6; ++kind) {
     LightVariant v;
-    v.lightKind = kind;
+    v.lightKind = kind % 3;
+    v.layered = kind >= 3;
     add(v);
     for (int bits = 0; bits < 16; ++bits) {
       v.shadowArray = (bits & 1) != 0;
       v.bilinear = (bits & 2) != 0;
       v.glass = (bits & 4) != 0;
       v.curves = (bits & 8) != 0;
-      for (v.shadowViews = 1; v.shadowViews <= (kind != 2 ? 2 : 1); ++v.shadowViews)
+      for (v.shadowViews = 1; v.shadowViews <= (v.lightKind != 2 ? 2 : 1); ++v.shadowViews)
         add(v);
     }
   }

@@ -63,16 +63,46 @@ std::string drawConstituents(tyndall::Medium& medium) {
     ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize("remove").x - 8);
     const bool isRemoved = ImGui::SmallButton("remove");
     tyndall::Constituent& constituent = medium.constituents[i];
+    std::vector<std::string> hidden;
+    if (medium.layers.empty()) hidden.emplace_back("layer");
     const bool hasG =
         constituent.phase == tyndall::Phase::HenyeyGreenstein || constituent.phase == tyndall::Phase::CornetteShanks;
     std::string field;
-    if (editRows(settings::constituentTable(), constituent, tyndall::Constituent(), field,
-                 hasG ? std::vector<std::string>() : std::vector<std::string>{"g"}))
+    if (!hasG) hidden.emplace_back("g");
+    if (editRows(settings::constituentTable(), constituent, tyndall::Constituent(), field, hidden))
       edited = "constituents[" + std::to_string(i) + "]." + field;
     drawPhase(constituent);
     ImGui::PopID();
     if (!isRemoved) continue;
     medium.constituents.erase(medium.constituents.begin() + static_cast<std::ptrdiff_t>(i));
+    return "remove";
+  }
+  return edited;
+}
+
+// What followed it is the same everywhere then.
+void removeLayer(tyndall::Medium& medium, int removed) {
+  medium.layers.erase(medium.layers.begin() + removed);
+  const auto renumber = [&](int& layer) { layer = layer == removed ? -1 : layer > removed ? layer - 1 : layer; };
+  renumber(medium.absorptionLayer);
+  for (tyndall::Constituent& constituent : medium.constituents)
+    renumber(constituent.layer);
+}
+
+std::string drawLayers(tyndall::Medium& medium) {
+  std::string edited;
+  for (std::size_t i = 0; i < medium.layers.size(); ++i) {
+    ImGui::PushID(static_cast<int>(100 + i));
+    ImGui::Separator();
+    ImGui::Text("layers[%d]", static_cast<int>(i));
+    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize("remove").x - 8);
+    const bool isRemoved = ImGui::SmallButton("remove");
+    std::string field;
+    if (editRows(settings::layerTable(), medium.layers[i], tyndall::HeightLayer(), field))
+      edited = "layers[" + std::to_string(i) + "]." + field;
+    ImGui::PopID();
+    if (!isRemoved) continue;
+    removeLayer(medium, static_cast<int>(i));
     return "remove";
   }
   return edited;
@@ -89,13 +119,25 @@ void drawMediumPanel(Session& session) {
   }
   tyndall::Medium medium = state.medium.value_or(viewer.sceneMedium());
   std::string edited = drawVisibility(medium), field;
-  if (editRows(settings::mediumTable(), medium, tyndall::Medium(), field)) edited = field;
+  const std::vector<std::string> ofLayers = {"absorptionLayer", "up"};
+  if (editRows(settings::mediumTable(), medium, tyndall::Medium(), field,
+               medium.layers.empty() ? ofLayers : std::vector<std::string>()))
+    edited = field;
   if (const std::string what = drawConstituents(medium); !what.empty()) edited = what;
   ImGui::BeginDisabled(medium.constituents.size() >= tyndall::kMaxConstituents);
   if (ImGui::SmallButton("add constituent")) {
     medium.constituents.push_back({{0.01F, 0.01F, 0.01F}, tyndall::Phase::Isotropic, 0});
     edited = "add";
   }
+  ImGui::EndDisabled();
+  if (const std::string what = drawLayers(medium); !what.empty()) edited = what;
+  ImGui::BeginDisabled(medium.layers.size() >= tyndall::kMaxHeightLayers);
+  ImGui::SameLine();
+  if (ImGui::SmallButton("add layer")) {
+    medium.layers.push_back({0, 10});
+    edited = "add layer";
+  }
+  tooltip("a density that thins out with height: constituents and absorption follow it by its number");
   ImGui::EndDisabled();
   if (edited.empty()) return;
   state.medium = medium;

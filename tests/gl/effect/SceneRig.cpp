@@ -348,6 +348,12 @@ void transformWorld(Frame& frame, double scale, const glm::dvec3& offset) {
   for (float& a : frame.medium.absorption)
     a = static_cast<float>(a / scale);
   frame.medium.farDistance *= scale;
+  const double raised = glm::dot(glm::normalize(reference::toVec3(frame.medium.up)), offset);
+  for (HeightLayer& layer : frame.medium.layers) {
+    layer.height = layer.height * scale + raised;
+    layer.ground = layer.ground * scale + raised;
+    layer.scale *= scale;
+  }
 }
 
 } // namespace tests

@@ -1,6 +1,7 @@
 # Tests of the effect, for the executable that includes this file.
 set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/AgainstReference.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/AirlightSweep.cpp
   ${CMAKE_CURRENT_LIST_DIR}/AirlightTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/BandsTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/BetweenDrawsTest.cpp
@@ -33,6 +34,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/GlThunks.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GlesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GpuWaits.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/HeightFogTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/HostileEngineTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/HostileRows.cpp
   ${CMAKE_CURRENT_LIST_DIR}/JitterTest.cpp

@@ -32,8 +32,9 @@ enum class Axis {
   Glass,
   Settings, ///< of the frame that is drawn by any settings
   Relation, ///< by which change the picture must stay
+  Layers,   ///< of the medium, that thin out with height
 };
-inline constexpr int kAxes = static_cast<int>(Axis::Relation) + 1;
+inline constexpr int kAxes = static_cast<int>(Axis::Layers) + 1;
 
 const char* nameOf(Axis axis);
 

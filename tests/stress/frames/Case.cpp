@@ -76,6 +76,30 @@ void makeMedium(Case& made, const AxisSet& simple) {
   }
 }
 
+// In every second family some of what is in the air follows one layer, or two.
+void makeLayers(Case& made, const AxisSet& simple) {
+  if (simple.has(Axis::Layers)) return;
+  Medium& medium = made.frame.medium;
+  Random random(made.seed, Axis::Layers), family = Random::ofFamily(made.seed, Axis::Layers);
+  const int count = std::max(family.integer(-1, kMaxHeightLayers), 0);
+  const bool isExtreme = random.chance(0.2);
+  for (int i = 0; i < count; ++i) {
+    HeightLayer layer;
+    layer.scale = isExtreme ? random.logUniform(1e-3, 1e9) : random.logUniform(0.3, 100);
+    layer.height = random.uniform(-4, 4) * std::min(layer.scale, 100.0) + random.uniform(-3, 3);
+    if (random.chance(0.5)) layer.ground = layer.height + random.uniform(-9, 2) * layer.scale;
+    if (random.chance(0.05)) layer.scale = kInfinity;
+    medium.layers.push_back(layer);
+  }
+  if (random.chance(0.5)) {
+    const glm::dvec3 up = random.uniform(0.1, 9) * random.direction();
+    medium.up = {up.x, up.y, up.z};
+  }
+  for (Constituent& constituent : medium.constituents)
+    constituent.layer = family.integer(-1, count - 1);
+  medium.absorptionLayer = family.integer(-1, count - 1);
+}
+
 void makeSettings(Case& made, const AxisSet& simple) {
   Settings& settings = made.anySettings;
   if (Random random = Random::ofFamily(made.seed, Axis::Filter); !simple.has(Axis::Filter) && random.chance(0.4))
@@ -108,6 +132,7 @@ Case makeCase(std::uint64_t seed, const AxisSet& simple) {
   makeLights(made, simple);
   makeMaps(made, simple);
   makeMedium(made, simple);
+  makeLayers(made, simple);
   makeSettings(made, simple);
   if (Random random = Random::ofFamily(seed, Axis::Relation); !simple.has(Axis::Relation))
     made.relation = static_cast<Relation>(random.integer(0, kRelations - 1));

@@ -46,7 +46,12 @@ std::string describe(const Case& made) {
   text += fmt::format("distances {:g} to {:g}; depth form {}; filter {}\n", *low, *high,
                       static_cast<int>(made.depthForm), static_cast<int>(frame.settings.shadowFilter));
   for (const Constituent& c : frame.medium.constituents)
-    text += fmt::format("scattering {}, phase {}, g {:g}\n", textOf(c.scattering), static_cast<int>(c.phase), c.g);
+    text += fmt::format("scattering {}, phase {}, g {:g}, layer {}\n", textOf(c.scattering), static_cast<int>(c.phase),
+                        c.g, c.layer);
+  for (const HeightLayer& layer : frame.medium.layers)
+    text += fmt::format("layer of height {:g}, scale {:g}, ground {:g}; up {:g} {:g} {:g}; absorption's {}\n",
+                        layer.height, layer.scale, layer.ground, frame.medium.up[0], frame.medium.up[1],
+                        frame.medium.up[2], frame.medium.absorptionLayer);
   text += fmt::format("absorption {}, far distance {:g}\n", textOf(frame.medium.absorption), frame.medium.farDistance);
   for (std::size_t i = 0; i < frame.lights.size(); ++i)
     text += textOf(frame.lights[i], made.maps[i], eye);

@@ -44,6 +44,10 @@ void requireFinite(const blocks::FrameBlock& block) {
     requireFinite(block.phaseWeight[k], "phaseWeight");
     requireFinite(block.phaseShape[k], "phaseShape");
   }
+  for (int i = 0; i < block.layerCount; ++i) {
+    requireFinite(block.layerUp[i], "layerUp");
+    requireFinite(block.layerExtinction[i], "layerExtinction");
+  }
 }
 
 void requireFinite(const blocks::LightBlock& block, LightKind kind) {

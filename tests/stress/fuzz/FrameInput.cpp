@@ -176,10 +176,16 @@ tyndall::Medium mediumOf(Numbers& numbers) {
     one.scattering = rgb(numbers, -9, 4);
     one.phase = oneOf<tyndall::Phase>(numbers, 4);
     one.g = static_cast<float>(mostly(numbers, -0.999, 0.999));
+    if (numbers.below(4) == 0) one.layer = whole(numbers, -1, tyndall::kMaxHeightLayers - 1);
     medium.constituents.push_back(one);
   }
   medium.absorption = rgb(numbers, -9, 4);
   if (numbers.flag()) medium.farDistance = scaled(numbers, -2, 9);
+  for (int i = std::min(whole(numbers, 0, tyndall::kMaxHeightLayers), 8); i > 0; --i)
+    medium.layers.push_back({mostly(numbers, -1, 1) * scaled(numbers, -3, 6), scaled(numbers, -3, 9),
+                             numbers.flag() ? -tyndall::kInfinity : mostly(numbers, -1, 1) * scaled(numbers, -3, 6)});
+  if (numbers.below(4) == 0) medium.absorptionLayer = whole(numbers, -1, tyndall::kMaxHeightLayers - 1);
+  if (numbers.flag()) medium.up = vec(point(numbers));
   return medium;
 }
 

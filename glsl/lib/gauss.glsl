@@ -1,0 +1,4 @@
+// Gauss-Legendre nodes and weights, six and two of them.
+const vec4 kNode6 = vec4(0.2386191860831969, 0.4679139345726910, 0.6612093864662645, 0.3607615730481386);
+const vec2 kNode6Last = vec2(0.9324695142031521, 0.1713244923791704);
+const float kNode2 = 0.5773502691896257;
