@@ -1,32 +1,48 @@
-// A medium part of which thins out with height (Medium::layers). Layer j has density exp(-e), e = max(dot(layerUp[j].xyz, x) + layerUp[j].w,
-// ground): an exponent that is linear along a ray, cut at the ground. Layers come in pairs, as x and y of a vector.
+// A medium part of which thins out with height (Medium::layers): HEIGHT layers, 1 or 2. Layer j has density exp(-e),
+// e = max(dot(layerUp[j].xyz, x) + layerUp[j].w, ground): an exponent that is linear along a ray, cut at the ground.
+
+#if HEIGHT == 1
+#define Layers float // a number for each layer
+#define LAYERS(first, second) (first)
+Layers moreThan(Layers a, Layers b, Layers yes, Layers no) { return a > b ? yes : no; }
+float sumOf(Layers x) { return x; }
+float leastOf(Layers x) { return x; }
+Spectrum layersExtinction(Layers density) { return density * SPECTRUM(layerExtinction[0]); }
+#else
+#define Layers vec2
+#define LAYERS(first, second) vec2(first, second)
+Layers moreThan(Layers a, Layers b, Layers yes, Layers no) { return mix(no, yes, greaterThan(a, b)); }
+float sumOf(Layers x) { return x.x + x.y; }
+float leastOf(Layers x) { return min(x.x, x.y); }
+Spectrum layersExtinction(Layers density) { return density.x * SPECTRUM(layerExtinction[0]) + density.y * SPECTRUM(layerExtinction[1]); }
+#endif
+
+Spectrum extinctionOf(Layers density) { return SPECTRUM(extinction) + layersExtinction(density); }
 
 // Exponents along a ray: at s they are begin + s slope.
 struct Heights {
-  vec2 begin, slope;
+  Layers begin, slope;
 };
 
-vec2 exponentsAt(vec3 x) { return vec2(dot(layerUp[0].xyz, x) + layerUp[0].w, dot(layerUp[1].xyz, x) + layerUp[1].w); }
-vec2 exponentSlopes(vec3 direction) { return vec2(dot(layerUp[0].xyz, direction), dot(layerUp[1].xyz, direction)); }
-vec2 groundExponents() { return vec2(layerExtinction[0].w, layerExtinction[1].w); }
+Layers exponentsAt(vec3 x) { return LAYERS(dot(layerUp[0].xyz, x) + layerUp[0].w, dot(layerUp[1].xyz, x) + layerUp[1].w); }
+Layers exponentSlopes(vec3 direction) { return LAYERS(dot(layerUp[0].xyz, direction), dot(layerUp[1].xyz, direction)); }
+Layers groundExponents() { return LAYERS(layerExtinction[0].w, layerExtinction[1].w); }
 
 Heights heightsAlong(Ray ray) { return Heights(exponentsAt(ray.origin), exponentSlopes(ray.direction)); }
 
-vec2 densities(vec2 exponents) { return exp(-max(exponents, groundExponents())); }
+Layers densities(Layers exponents) { return exp(-max(exponents, groundExponents())); }
 
-// The mean of a layer's density on the way between two exponents: of what lies below the ground it is that of the ground, above it falls
-// from the lower end on.
-float meanDensity(float a, float b, float ground) {
-  float low = max(min(a, b), ground), above = max(max(a, b), ground) - low, width = abs(b - a);
-  float share = above < width ? above / width : 1.0; // of the way that lies above the ground
-  return exp(-low) * (1.0 - share + share * relativeExpm1(above));
-}
-vec2 meanDensities(vec2 a, vec2 b) {
-  return vec2(meanDensity(a.x, b.x, layerExtinction[0].w), meanDensity(a.y, b.y, layerExtinction[1].w));
+// (1 - exp(-x)) / x for x >= 0, where exp(-x) is known.
+Layers relativeFall(Layers x, Layers passed) {
+  return moreThan(x, Layers(0.1), (1.0 - passed) / max(x, 0.1), 1.0 + x * (-1.0 / 2.0 + x * (1.0 / 6.0 + x * (-1.0 / 24.0 + x * (1.0 / 120.0)))));
 }
 
-Spectrum layersExtinction(vec2 density) { return density.x * SPECTRUM(layerExtinction[0]) + density.y * SPECTRUM(layerExtinction[1]); }
-Spectrum extinctionOf(vec2 density) { return SPECTRUM(extinction) + layersExtinction(density); }
+// The mean density on the way between two exponents: of what lies below the ground that of the ground; above, it falls from the lower end on.
+Layers meanDensities(Layers a, Layers b) {
+  Layers ground = groundExponents(), low = max(min(a, b), ground), above = max(max(a, b), ground) - low, width = abs(b - a);
+  Layers share = moreThan(width, above, above / max(width, 1e-37), Layers(1.0)); // of the way that lies above the ground
+  return exp(-low) * (1.0 - share + share * relativeFall(above, exp(-above)));
+}
 
 // Optical depth from the ray's origin to s.
 Spectrum depthTo(Heights heights, float s) {

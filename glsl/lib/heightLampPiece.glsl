@@ -20,12 +20,12 @@ Spectrum pointIntegrand(Airlight light, float P, float s) {
 // A length from s on over which the mean densities towards the lamp are smooth: over few e-folds, or a share of the way from where both would be
 // at one height, where with a ground between the two the mean has a pole. At least a twentieth of the distance r to the lamp.
 float smoothLength(Airlight light, float s, float r) {
-  vec2 here = light.heights.begin + s * light.heights.slope, lamp = exponentsAt(lightPosition), ground = groundExponents();
-  vec2 slope = abs(light.heights.slope), apart = 0.5 * abs(here - lamp);
-  apart = mix(max(apart, vec2(kFolds)), apart, lessThanEqual((here - ground) * (lamp - ground), vec2(0.0)));
-  vec2 depth = r * vec2(greatestOf(SPECTRUM(layerExtinction[0])), greatestOf(SPECTRUM(layerExtinction[1]))) * densities(min(here, lamp));
-  vec2 len = mix(vec2(1e30), apart / max(slope, vec2(1e-30)), greaterThan(depth * slope, vec2(1e-6) * slope));
-  return max(min(len.x, len.y), 0.05 * r);
+  Layers here = light.heights.begin + s * light.heights.slope, lamp = exponentsAt(lightPosition), ground = groundExponents();
+  Layers slope = abs(light.heights.slope), apart = 0.5 * abs(here - lamp);
+  apart = moreThan((here - ground) * (lamp - ground), Layers(0.0), max(apart, kFolds), apart);
+  Layers depth = r * mostExtinction() * densities(min(here, lamp));
+  Layers len = moreThan(depth * slope, 1e-6 * slope, apart / max(slope, 1e-30), Layers(1e30));
+  return max(leastOf(len), 0.05 * r);
 }
 
 // Panels in x, at most 1 or 1.75 long (evenLamp.glsl), Gauss-Legendre in each.
@@ -39,7 +39,7 @@ void addPiece(Airlight light, float s0, float s1, Visibility visibility, inout L
 #else
   const float longPanel = 1.75, shortPanel = 0.2;
 #endif
-  Followed followed = followedOf(light.heights, s0, s1, vec2(max(r0, r1)));
+  Followed followed = followedOf(light.heights, s0, s1, Layers(max(r0, r1)));
   Way way = wayOf(light, P, s0);
   Spectrum least = way.whole;
   float s = s0;

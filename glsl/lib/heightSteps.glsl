@@ -1,5 +1,5 @@
 // How light is integrated through layers that thin out with height, where there is no closed form: piece by piece between the grounds, in
-// panels over which densities change by few e-folds and the way of the light by few optical depths. Included by heightSun.glsl, lamp.glsl.
+// panels over which densities change by few e-folds and the way of the light by few optical depths. Included by airlight.glsl.
 
 const float kFolds = 1.5;   // of density, over a panel
 const float kDepths = 2.0;  // optical depths of a panel
@@ -11,50 +11,53 @@ const int kMostPanels = 160;
 float greatestOf(float x) { return x; }
 float greatestOf(vec3 x) { return max(x.x, max(x.y, x.z)); }
 
+Layers mostExtinction() { return LAYERS(greatestOf(SPECTRUM(layerExtinction[0])), greatestOf(SPECTRUM(layerExtinction[1]))); }
+
+// 1 above the ground, where densities change, else 0.
+Layers aboveGround(Layers exponents) { return moreThan(exponents, groundExponents(), Layers(1.0), Layers(0.0)); }
+
 // Optical depth of the light's way: from a point to the eye, and all of it.
 struct Way {
   Spectrum eye, whole;
 };
 
-// Where a ray reaches the grounds.
-vec2 groundCrossings(Heights heights) {
-  bvec2 level = equal(heights.slope, vec2(0.0));
-  return mix((groundExponents() - heights.begin) / (heights.slope + vec2(level)), vec2(-1.0), level);
+// Where a ray reaches the grounds; -1 if it does not.
+Layers groundCrossings(Heights heights) {
+  Layers slope = abs(heights.slope), crossing = (groundExponents() - heights.begin) / max(slope, 1e-37);
+  return moreThan(slope, Layers(0.0), crossing * sign(heights.slope), Layers(-1.0));
 }
+
+// The end of a piece from s on: s1, or a ground before it.
+float pieceEnd(Layers crossings, float s, float s1) { return min(s1, leastOf(moreThan(crossings, Layers(s), crossings, Layers(s1)))); }
 
 // Where along a piece the densities are followed: in steps of kFolds / rate from `first` to `last`.
 struct Followed {
-  vec2 rate, first, last; // rate: e-folds a unit of length
+  Layers rate, first, last; // rate: e-folds a unit of length
 };
 
 // lightLength: how far light comes through a layer, at a density of 1.
-Followed followedOf(Heights heights, float s0, float s1, vec2 lightLength) {
-  vec2 ground = groundExponents(), middle = heights.begin + 0.5 * (s0 + s1) * heights.slope;
-  vec2 e0 = heights.begin + s0 * heights.slope, e1 = heights.begin + s1 * heights.slope, low = max(min(e0, e1), ground);
-  vec2 most = vec2(greatestOf(SPECTRUM(layerExtinction[0])), greatestOf(SPECTRUM(layerExtinction[1])));
-  vec2 rate = abs(heights.slope), inverse = 1.0 / max(rate, vec2(1e-30));
-  bvec2 counts = greaterThan(most * inverse * exp(-low), vec2(1e-20));
-  rate *= vec2(counts) * vec2(greaterThan(middle, ground));
+Followed followedOf(Heights heights, float s0, float s1, Layers lightLength) {
+  Layers e0 = heights.begin + s0 * heights.slope, e1 = heights.begin + s1 * heights.slope, low = max(min(e0, e1), groundExponents());
+  Layers most = mostExtinction(), rate = abs(heights.slope), inverse = 1.0 / max(rate, 1e-30);
+  rate *= aboveGround(0.5 * (e0 + e1)) * moreThan(most * inverse * exp(-low), Layers(1e-20), Layers(1.0), Layers(0.0));
   // The exponent at which the ray, or light on its way to it, has come through one optical depth.
-  vec2 eyeDepth = log(max(most * inverse, vec2(1e-30))), lightDepth = log(max(most * lightLength, vec2(1e-30)));
+  Layers eyeDepth = log(max(most * inverse, 1e-30)), lightDepth = log(max(most * lightLength, 1e-30));
   // Growing along the ray, it is brightest at s1 or that far up; thinning out, at s0 or where light comes down to.
-  vec2 growing = s0 + max(e0 - max(low, max(eyeDepth, lightDepth)) - kUnseen, vec2(0.0)) * inverse;
-  vec2 thinning = s0 + (kUnseen + max(lightDepth - low, vec2(0.0))) * inverse;
-  bvec2 thins = greaterThan(heights.slope, vec2(0.0));
-  vec2 last = mix(vec2(s1), thinning, thins);
-  return Followed(rate, mix(growing, vec2(s0), thins), mix(vec2(-1.0), last, greaterThan(rate, vec2(0.0))));
+  Layers growing = s0 + max(e0 - max(low, max(eyeDepth, lightDepth)) - kUnseen, 0.0) * inverse;
+  Layers thinning = s0 + (kUnseen + max(lightDepth - low, 0.0)) * inverse;
+  Layers first = moreThan(heights.slope, Layers(0.0), Layers(s0), growing), last = moreThan(heights.slope, Layers(0.0), thinning, Layers(s1));
+  return Followed(rate, first, moreThan(rate, Layers(0.0), last, Layers(-1.0)));
 }
 
 // The longest step from s on.
 float stepFrom(Followed followed, float s) {
-  vec2 step = max(followed.first - s, kFolds / max(followed.rate, vec2(1e-30)));
-  step = mix(vec2(1e30), step, lessThan(vec2(s), followed.last));
-  return min(step.x, step.y);
+  Layers len = max(followed.first - s, kFolds / max(followed.rate, 1e-30));
+  return leastOf(moreThan(followed.last, Layers(s), len, Layers(1e30)));
 }
 
 float foldsOver(Followed followed, float s, float len) {
-  vec2 within = vec2(lessThan(vec2(s), followed.last)) * vec2(greaterThan(vec2(s + len), followed.first));
-  return len * dot(followed.rate, within);
+  Layers begun = moreThan(Layers(s + len), followed.first, followed.rate, Layers(0.0));
+  return len * sumOf(moreThan(followed.last, Layers(s), begun, Layers(0.0)));
 }
 
 // 1 for channels in which light from there on still counts, where the least that the whole way was is known, else 0. (The way to the eye

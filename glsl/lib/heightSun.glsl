@@ -11,8 +11,7 @@ Airlight airlightOf(Ray ray) {
   vec3 sum = lightDirection + ray.direction, difference = lightDirection - ray.direction;
   Phases phases = phasesTowardsEye(0.5 * dot(sum, sum), 0.5 * dot(difference, difference));
 #ifdef PHASE_APART
-  Spectrum all = max(phases.even + phases.first + phases.second, Spectrum(1e-30));
-  phases = Phases(phases.even / all, phases.first / all, phases.second / all);
+  phases = sharesOf(phases);
 #endif
   return Airlight(phases, heightsAlong(ray), dot(boundary.xyz, ray.origin) + boundary.w, dot(boundary.xyz, ray.direction));
 }
@@ -21,7 +20,7 @@ void litRange(Airlight light, inout float s0, inout float s1) {}
 
 // The light's way to the point s and on to the eye.
 Way wayOf(Airlight light, float s) {
-  vec2 here = light.heights.begin + s * light.heights.slope;
+  Layers here = light.heights.begin + s * light.heights.slope;
   Spectrum eye = s * extinctionOf(meanDensities(light.heights.begin, here)), whole = eye;
   float path = light.path + s * light.pathSlope;
   if (path > 0.0) whole += path * extinctionOf(meanDensities(here, here - path * exponentSlopes(lightDirection)));
@@ -30,8 +29,8 @@ Way wayOf(Airlight light, float s) {
 
 // Change of the airlight's logarithm a unit of length, at s, at most.
 float rateAt(Airlight light, float s) {
-  vec2 exponents = light.heights.begin + s * light.heights.slope, above = vec2(greaterThan(exponents, groundExponents()));
-  return greatestOf(extinctionOf(densities(exponents))) * (1.0 + abs(light.pathSlope)) + dot(abs(light.heights.slope), above);
+  Layers exponents = light.heights.begin + s * light.heights.slope;
+  return greatestOf(extinctionOf(densities(exponents))) * (1.0 + abs(light.pathSlope)) + sumOf(abs(light.heights.slope) * aboveGround(exponents));
 }
 
 // A length from s on over which the airlight changes by about a twentieth in any channel, but more and more where less is left of it.
@@ -52,9 +51,9 @@ Spectrum integrandAt(Airlight light, float s) {
 
 // One smooth piece of a span, Gauss-Legendre in each of its panels.
 void addPiece(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
-  vec2 fall = abs(exponentSlopes(lightDirection)); // e-folds that light comes through, a unit of length
-  vec2 lightLength = boundary == vec4(0.0) ? vec2(0.0) : min(1.0 / max(fall, vec2(1e-30)), vec2(max(light.path + max(s0 * light.pathSlope, s1 * light.pathSlope), 0.0)));
-  Followed followed = followedOf(light.heights, s0, s1, lightLength);
+  Layers fall = abs(exponentSlopes(lightDirection)); // e-folds that light comes through, a unit of length
+  float longest = max(light.path + max(s0 * light.pathSlope, s1 * light.pathSlope), 0.0);
+  Followed followed = followedOf(light.heights, s0, s1, min(1.0 / max(fall, 1e-30), longest));
   Way way = wayOf(light, s0);
   Spectrum least = way.whole;
   float s = s0;
@@ -94,28 +93,51 @@ void addPiece(Airlight light, float s0, float s1, Visibility visibility, inout L
 // Where all of the medium follows one layer, and light loses nothing before the ray: what extinction takes is in proportion to what is
 // scattered. The integral of density times transmittance is (T(s0) - T(s1)) / sigma.
 void addOnlyLayer(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
-  bool isFirst = onlyLayer == 0;
-  float begin = isFirst ? light.heights.begin.x : light.heights.begin.y, slope = isFirst ? light.heights.slope.x : light.heights.slope.y;
-  vec4 layer = isFirst ? layerExtinction[0] : layerExtinction[1];
-  Spectrum phase = isFirst ? light.phases.first : light.phases.second, sigma = SPECTRUM(layer);
-  float before = s0 * meanDensity(begin, begin + s0 * slope, layer.w);
-  float own = (s1 - s0) * meanDensity(begin + s0 * slope, begin + s1 * slope, layer.w);
-  sum += visibility * Light(phase * exp(-sigma * before) * relativeExpm1(sigma * own) * own);
+  Layers mine = LAYERS(onlyLayer == 0 ? 1.0 : 0.0, onlyLayer == 1 ? 1.0 : 0.0), begin = light.heights.begin, slope = light.heights.slope;
+  float before = s0 * sumOf(mine * meanDensities(begin, begin + s0 * slope));
+  float own = (s1 - s0) * sumOf(mine * meanDensities(begin + s0 * slope, begin + s1 * slope));
+  Spectrum sigma = layersExtinction(mine);
+  sum += visibility * Light((phaseOf(light.phases, mine) - light.phases.even) * exp(-sigma * before) * relativeExpm1(sigma * own) * own);
+}
+
+// A span over which the airlight changes little: by its value in the middle and its curvature there. Returns by how much it falls over the
+// span, as a share of itself.
+Spectrum addShort(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
+  float len = s1 - s0, s = 0.5 * (s0 + s1);
+  Layers here = light.heights.begin + s * light.heights.slope, slope = light.heights.slope * aboveGround(here), density = densities(here);
+  Spectrum rate = extinctionOf(density), growth = layersExtinction(density * slope); // of the way to the eye, and what that rate falls by
+  Spectrum depth = s * extinctionOf(meanDensities(light.heights.begin, here)), even = light.phases.even;
+  Spectrum value = phaseOf(light.phases, density), folds = phaseOf(light.phases, density * slope) - even; // folds, folds2: the sums times slope, its square
+  Spectrum folds2 = phaseOf(light.phases, density * slope * slope) - even;
+  Spectrum curve = value * (rate * rate + growth) + 2.0 * rate * folds + folds2, passed = exp(-depth) * len;
+  sum += visibility * Light(passed * (value + len * len / 24.0 * curve));
+  return len * (rate + folds / max(value, Spectrum(1e-37)));
+}
+
+// True if it is such a span: of less than a quarter of an optical depth and e-fold, within one side of each ground, of light that loses nothing
+// before the ray.
+bool isShort(Airlight light, float s0, float s1) {
+  Layers ground = groundExponents(), e0 = light.heights.begin + s0 * light.heights.slope - ground, e1 = light.heights.begin + s1 * light.heights.slope - ground;
+  Spectrum rate = extinctionOf(exp(-max(min(e0, e1), 0.0) - ground));
+  float changes = (s1 - s0) * (greatestOf(rate) + sumOf(abs(light.heights.slope)));
+  return changes < 0.25 && leastOf(e0 * e1) >= 0.0 && boundary == vec4(0.0);
 }
 
 void addAirlight(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
   if (!(s1 > s0)) return;
+  if (isShort(light, s0, s1)) {
+    addShort(light, s0, s1, visibility, sum);
+    return;
+  }
   if (onlyLayer >= 0 && boundary == vec4(0.0)) {
     addOnlyLayer(light, s0, s1, visibility, sum);
     return;
   }
   // Pieces end at the grounds and at the medium's boundary.
-  vec2 crossings = groundCrossings(light.heights);
+  Layers crossings = groundCrossings(light.heights);
   float bound = light.pathSlope != 0.0 ? -light.path / light.pathSlope : -1.0, from = s0;
   for (int i = 0; i < 4 && from < s1; ++i) {
-    float to = s1;
-    if (crossings.x > from) to = min(to, crossings.x);
-    if (crossings.y > from) to = min(to, crossings.y);
+    float to = pieceEnd(crossings, from, s1);
     if (bound > from) to = min(to, bound);
     addPiece(light, from, to, visibility, sum);
     from = to;

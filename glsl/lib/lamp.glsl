@@ -134,9 +134,7 @@ void addAirlight(Airlight light, float s0, float s1, Visibility visibility, inou
     }
 #endif
 #if HEIGHT
-    vec2 crossings = groundCrossings(light.heights);
-    if (crossings.x > from && crossings.x < to) to = crossings.x;
-    if (crossings.y > from && crossings.y < to) to = crossings.y;
+    to = pieceEnd(groundCrossings(light.heights), from, to);
 #endif
     addPiece(light, from, to, visibility, sum);
     from = to;

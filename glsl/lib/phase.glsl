@@ -36,25 +36,51 @@ Spectrum phaseTowardsEye(float oneMinusCos, float onePlusCos) {
 #if HEIGHT
 // The same in parts: of the constituents that are the same everywhere, and of those that follow each layer, where density is 1.
 struct Phases {
-  Spectrum even, first, second;
+  Spectrum even, first;
+#if HEIGHT > 1
+  Spectrum second;
+#endif
 };
 
 Phases phasesTowardsEye(float oneMinusCos, float onePlusCos) {
   float cosSquared = 0.25 * (onePlusCos - oneMinusCos) * (onePlusCos - oneMinusCos);
-  Phases phases = Phases(Spectrum(0.0), Spectrum(0.0), Spectrum(0.0));
+  Phases phases;
+  phases.even = phases.first = Spectrum(0.0);
+#if HEIGHT > 1
+  phases.second = Spectrum(0.0);
+#endif
   for (int k = 0; k < constituentCount; ++k) {
     vec4 shape = phaseShape[k];
     float d = shape.x + shape.y * (shape.w > 0.0 ? oneMinusCos : onePlusCos);
     float r = inversesqrt(d), layer = phaseWeight[k].w;
     Spectrum phase = SPECTRUM(phaseWeight[k]) * ((1.0 + shape.z * cosSquared) * (r * r * r));
-    if (layer == 0.0) phases.even += phase;
-    else if (layer == 1.0) phases.first += phase;
-    else phases.second += phase;
+    phases.even += layer == 0.0 ? phase : Spectrum(0.0);
+    phases.first += layer == 1.0 ? phase : Spectrum(0.0);
+#if HEIGHT > 1
+    phases.second += layer == 2.0 ? phase : Spectrum(0.0);
+#endif
   }
   return phases;
 }
 
-Spectrum phaseOf(Phases phases, vec2 density) { return phases.even + density.x * phases.first + density.y * phases.second; }
+Spectrum phaseOf(Phases phases, Layers density) {
+#if HEIGHT > 1
+  return phases.even + density.x * phases.first + density.y * phases.second;
+#else
+  return phases.even + density * phases.first;
+#endif
+}
+
+// As parts of their sum.
+Phases sharesOf(Phases phases) {
+  Spectrum all = 1.0 / max(phaseOf(phases, Layers(1.0)), Spectrum(1e-30));
+  phases.even *= all;
+  phases.first *= all;
+#if HEIGHT > 1
+  phases.second *= all;
+#endif
+  return phases;
+}
 #endif
 
 // The same of a directional light along a camera ray. theta lies between the light's travel and the direction to the eye:

@@ -25,8 +25,16 @@ void addWeighted(Airlight light, float s0, float s1, Visibility mean, Visibility
   sum += own * (mean - moment * towards);
 }
 #else
-// As two halves, unless the visibility is even.
+// As two halves, unless the visibility is even, or the airlight nearly falls along a line.
 void addWeighted(Airlight light, float s0, float s1, Visibility mean, Visibility moment, inout Light sum) {
+#if HEIGHT && LIGHT_KIND == 0
+  if (isShort(light, s0, s1)) {
+    Light own = Light(0.0);
+    Spectrum fall = addShort(light, s0, s1, Visibility(1.0), own);
+    sum += own * (mean - moment * (0.5 * fall));
+    return;
+  }
+#endif
   float end = moment == Visibility(0.0) ? s1 : 0.5 * (s0 + s1);
   Visibility own = end < s1 ? mean - 2.0 * moment : mean, behind = mean + 2.0 * moment;
   while (s0 < s1) {

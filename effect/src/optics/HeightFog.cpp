@@ -26,6 +26,8 @@ bool isLayered(const Medium& medium) {
   return false;
 }
 
+int layersOf(const Medium& medium) { return isLayered(medium) ? static_cast<int>(medium.layers.size()) : 0; }
+
 int onlyLayerOf(const Medium& medium) {
   int only = kEverywhere;
   for (int i = kEverywhere; i < static_cast<int>(medium.layers.size()); ++i) {

@@ -1,5 +1,7 @@
 #include "plan/LightVariant.h"
 
+#include <tyndall/tyndall.h>
+
 namespace tyndall {
 
 gl::Definitions definitionsOf(const LightVariant& v) {
@@ -9,7 +11,7 @@ gl::Definitions definitionsOf(const LightVariant& v) {
                                  {"FILTER_BILINEAR", v.bilinear},
                                  {"GLASS", v.glass},
                                  {"CURVES", v.curves},
-                                 {"HEIGHT", v.layered},
+                                 {"HEIGHT", v.layers},
                                  {"MONOCHROME", v.monochrome},
                                  {"COMPOSITE", v.composite}};
   if (!v.dualSource) definitions.emplace_back("ONE_SOURCE", 1);
@@ -18,8 +20,8 @@ gl::Definitions definitionsOf(const LightVariant& v) {
 
 LightVariant served(LightVariant variant) {
   const int kinds = (variant.bilinear ? 1 : 0) + (variant.glass ? 1 : 0) + (variant.curves ? 1 : 0);
-  const bool isSunThroughGlass = variant.lightKind == 0 && !variant.bilinear && !variant.layered; // and smoke
-  if (variant.shadowViews == 0 || (kinds > 1 && !isSunThroughGlass)) variant.monochrome = false;
+  const bool isSunThroughGlass = variant.lightKind == 0 && !variant.bilinear && variant.layers == 0; // and smoke
+  if (variant.layers > 1 || variant.shadowViews == 0 || (kinds > 1 && !isSunThroughGlass)) variant.monochrome = false;
   return variant;
 }
 
@@ -36,10 +38,10 @@ std::vector<LightVariant> allLightVariants(bool dualSource) {
         all.push_back(served(v));
       }
   };
-  for (int kind = 0; kind < 6; ++kind) {
+  for (int kind = 0; kind < 3 * (1 + kMaxHeightLayers); ++kind) {
     LightVariant v;
     v.lightKind = kind % 3;
-    v.layered = kind >= 3;
+    v.layers = kind / 3;
     add(v);
     for (int bits = 0; bits < 16; ++bits) {
       v.shadowArray = (bits & 1) != 0;

@@ -45,7 +45,7 @@ bool sumIsCapped(const Frame& frame, float most, std::size_t lights) {
 LightVariant variantOf(const Frame& frame, const Light& light, bool dualSource, bool direct) {
   LightVariant variant;
   variant.dualSource = dualSource;
-  variant.layered = optics::isLayered(frame.medium);
+  variant.layers = optics::layersOf(frame.medium);
   variant.monochrome = optics::isMonochrome(frame.medium);
   variant.composite = direct;
   variant.lightKind = static_cast<int>(light.kind);
@@ -77,7 +77,7 @@ FramePlanner::FramePlanner(const PlanInputs& inputs, Allocator& allocator, Plann
   passes_.extent.engines = {inputs.textures.colour.format, inputs.textures.inscatter.format,
                             inputs.textures.transmittance.format};
   passes_.variant.dualSource = inputs.tuning.compositing == Compositing::DualSource;
-  passes_.variant.layered = optics::isLayered(frame_.medium);
+  passes_.variant.layers = optics::layersOf(frame_.medium);
   passes_.extent.sampledDepth = frame_.depth.multisampled;
   passes_.extent.sampleShift = optics::sampleShift(frame_, inputs.textures.depthSamples);
   passes_.paths.depthSamples = inputs.textures.depthSamples;

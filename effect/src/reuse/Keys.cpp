@@ -31,7 +31,7 @@ auto fieldsOf(const Settings& s) {
 }
 
 auto fieldsOf(const LightVariant& v) {
-  return std::tie(v.lightKind, v.shadowViews, v.shadowArray, v.bilinear, v.glass, v.layered, v.monochrome,
+  return std::tie(v.lightKind, v.shadowViews, v.shadowArray, v.bilinear, v.glass, v.layers, v.monochrome,
                   v.composite);
 }
 

@@ -172,7 +172,7 @@ TEST_CASE("a light with another map's size, program or smoke is another") {
                                                     [](LightKey& l) { l.variant.glass = true; },
                                                     [](LightKey& l) { l.variant.bilinear = true; },
                                                     [](LightKey& l) { l.variant.shadowArray = true; },
-                                                    [](LightKey& l) { l.variant.layered = true; },
+                                                    [](LightKey& l) { l.variant.layers = 1; },
                                                     [](LightKey& l) { l.variant.monochrome = true; },
                                                     [](LightKey& l) { l.curves.texture = 3; },
                                                     [](LightKey& l) { l.block.lightColour.y = 1; }};
