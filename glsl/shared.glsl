@@ -49,8 +49,7 @@ UNIFORM_BLOCK(FrameBlock) {
   vec4 layerUp[MAX_HEIGHT_LAYERS];
   vec4 layerExtinction[MAX_HEIGHT_LAYERS]; // sigma_t where density is 1; w: ground
   int layerCount;
-  int onlyLayer;                      // the one that all of the medium follows, or -1
-  int framePadding0, framePadding1;
+  int framePadding0, framePadding1, framePadding2;
 };
 
 // A view of a light's shadow map.

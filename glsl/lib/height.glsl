@@ -1,7 +1,8 @@
-// A medium part of which thins out with height (Medium::layers): HEIGHT layers, 1 or 2. Layer j has density exp(-e),
-// e = max(dot(layerUp[j].xyz, x) + layerUp[j].w, ground): an exponent that is linear along a ray, cut at the ground.
+// A medium part of which thins out with height (Medium::layers): layer j has density exp(-e), e = max(dot(layerUp[j].xyz, x) + layerUp[j].w,
+// ground), an exponent that is linear along a ray, cut at the ground. HEIGHT 1: all of the medium follows its only layer; 2: some of it
+// does; both but for suns that lose light before the ray; 3: any medium, any light.
 
-#if HEIGHT == 1
+#if HEIGHT < 3
 #define Layers float // a number for each layer
 #define LAYERS(first, second) (first)
 Layers moreThan(Layers a, Layers b, Layers yes, Layers no) { return a > b ? yes : no; }

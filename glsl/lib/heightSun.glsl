@@ -22,8 +22,10 @@ void litRange(Airlight light, inout float s0, inout float s1) {}
 Way wayOf(Airlight light, float s) {
   Layers here = light.heights.begin + s * light.heights.slope;
   Spectrum eye = s * extinctionOf(meanDensities(light.heights.begin, here)), whole = eye;
+#if HEIGHT == 3
   float path = light.path + s * light.pathSlope;
   if (path > 0.0) whole += path * extinctionOf(meanDensities(here, here - path * exponentSlopes(lightDirection)));
+#endif
   return Way(eye, whole);
 }
 
@@ -45,8 +47,41 @@ bool isSteady(Airlight light, float s, float len) { return len * max(rateAt(ligh
 // The longest span of [s0, s1] over which a line stands for the airlight: of an optical depth and e-folds of at most `most`.
 float evenLength(Airlight light, float most, float s0, float s1) { return most / max(max(rateAt(light, s0), rateAt(light, s1)), 1e-30); }
 
+#if HEIGHT == 1
+
+// What extinction takes is in proportion to what is scattered: the integral of density times transmittance is (T(s0) - T(s1)) / sigma.
+void addAirlight(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
+  Layers begin = light.heights.begin, e0 = begin + s0 * light.heights.slope, e1 = begin + s1 * light.heights.slope;
+  float before = s0 * meanDensities(begin, e0), own = max(s1 - s0, 0.0) * meanDensities(e0, e1);
+  Spectrum sigma = layersExtinction(1.0);
+  sum += visibility * Light(light.phases.first * exp(-sigma * before) * relativeExpm1(sigma * own) * own);
+}
+
+#else
+
 Spectrum integrandAt(Airlight light, float s) {
   return phaseOf(light.phases, densities(light.heights.begin + s * light.heights.slope)) * exp(-wayOf(light, s).whole);
+}
+
+// How long the panel from s on may be: tried from the longest on. What is dark before a bright end is left out: s and `way` go on behind it.
+float longestPanel(Airlight light, Followed followed, Spectrum alive, Spectrum least, float s1, inout float s, inout Way way, inout Way end) {
+  float len = min(stepFrom(followed, s), s1 - s), middle = 0.0; // middle: half of a length whose end is known
+  Way whole = way;
+  for (int k = 0; k < 12; ++k) {
+    end = wayOf(light, s + len);
+    if (middle > 0.0 && isDarkBefore(alive, way, end, whole)) {
+      s += len;
+      way = end;
+      end = whole;
+      middle = 0.0;
+    }
+    float change = changeOf(alive, least, way, end);
+    if (change <= kDepths) break;
+    whole = end;
+    middle = change > 0.9 * kDark && change <= kDark ? 0.5 * len : 0.0;
+    len = middle > 0.0 ? middle : len * (kDepths / change);
+  }
+  return len;
 }
 
 // One smooth piece of a span, Gauss-Legendre in each of its panels.
@@ -60,22 +95,9 @@ void addPiece(Airlight light, float s0, float s1, Visibility visibility, inout L
   for (int i = 0; i < kMostPanels && s < s1; ++i) {
     Spectrum alive = aliveAt(way, least);
     if (greatestOf(alive) == 0.0) break;
-    float len = min(stepFrom(followed, s), s1 - s);
-    Way end = wayOf(light, s + len);
+    Way end = way;
+    float len = longestPanel(light, followed, alive, least, s1, s, way, end);
     float change = changeOf(alive, least, way, end);
-    if (change > 0.9 * kDark) {
-      Way middle = wayOf(light, s + 0.5 * len);
-      if (isDarkBefore(alive, way, middle, end)) {
-        s += 0.5 * len;
-        way = middle;
-        continue;
-      }
-    }
-    for (int k = 0; k < 2 && change > kDepths; ++k) { // twice, since most of a change may be at the begin
-      len *= kDepths / change;
-      end = wayOf(light, s + len);
-      change = changeOf(alive, least, way, end);
-    }
     float halfLength = 0.5 * len, middle = s + halfLength;
     bool isShort = change + foldsOver(followed, s, len) < 0.3;
     Spectrum panel = Spectrum(0.0); // a sum of its own, for what a sum of very many nodes would round
@@ -88,16 +110,6 @@ void addPiece(Airlight light, float s0, float s1, Visibility visibility, inout L
     least = min(least, end.whole);
     way = end;
   }
-}
-
-// Where all of the medium follows one layer, and light loses nothing before the ray: what extinction takes is in proportion to what is
-// scattered. The integral of density times transmittance is (T(s0) - T(s1)) / sigma.
-void addOnlyLayer(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
-  Layers mine = LAYERS(onlyLayer == 0 ? 1.0 : 0.0, onlyLayer == 1 ? 1.0 : 0.0), begin = light.heights.begin, slope = light.heights.slope;
-  float before = s0 * sumOf(mine * meanDensities(begin, begin + s0 * slope));
-  float own = (s1 - s0) * sumOf(mine * meanDensities(begin + s0 * slope, begin + s1 * slope));
-  Spectrum sigma = layersExtinction(mine);
-  sum += visibility * Light((phaseOf(light.phases, mine) - light.phases.even) * exp(-sigma * before) * relativeExpm1(sigma * own) * own);
 }
 
 // A span over which the airlight changes little: by its value in the middle and its curvature there. Returns by how much it falls over the
@@ -129,10 +141,6 @@ void addAirlight(Airlight light, float s0, float s1, Visibility visibility, inou
     addShort(light, s0, s1, visibility, sum);
     return;
   }
-  if (onlyLayer >= 0 && boundary == vec4(0.0)) {
-    addOnlyLayer(light, s0, s1, visibility, sum);
-    return;
-  }
   // Pieces end at the grounds and at the medium's boundary.
   Layers crossings = groundCrossings(light.heights);
   float bound = light.pathSlope != 0.0 ? -light.path / light.pathSlope : -1.0, from = s0;
@@ -143,3 +151,5 @@ void addAirlight(Airlight light, float s0, float s1, Visibility visibility, inou
     from = to;
   }
 }
+
+#endif

@@ -37,7 +37,7 @@ Spectrum phaseTowardsEye(float oneMinusCos, float onePlusCos) {
 // The same in parts: of the constituents that are the same everywhere, and of those that follow each layer, where density is 1.
 struct Phases {
   Spectrum even, first;
-#if HEIGHT > 1
+#if HEIGHT > 2
   Spectrum second;
 #endif
 };
@@ -46,7 +46,7 @@ Phases phasesTowardsEye(float oneMinusCos, float onePlusCos) {
   float cosSquared = 0.25 * (onePlusCos - oneMinusCos) * (onePlusCos - oneMinusCos);
   Phases phases;
   phases.even = phases.first = Spectrum(0.0);
-#if HEIGHT > 1
+#if HEIGHT > 2
   phases.second = Spectrum(0.0);
 #endif
   for (int k = 0; k < constituentCount; ++k) {
@@ -56,7 +56,7 @@ Phases phasesTowardsEye(float oneMinusCos, float onePlusCos) {
     Spectrum phase = SPECTRUM(phaseWeight[k]) * ((1.0 + shape.z * cosSquared) * (r * r * r));
     phases.even += layer == 0.0 ? phase : Spectrum(0.0);
     phases.first += layer == 1.0 ? phase : Spectrum(0.0);
-#if HEIGHT > 1
+#if HEIGHT > 2
     phases.second += layer == 2.0 ? phase : Spectrum(0.0);
 #endif
   }
@@ -64,7 +64,7 @@ Phases phasesTowardsEye(float oneMinusCos, float onePlusCos) {
 }
 
 Spectrum phaseOf(Phases phases, Layers density) {
-#if HEIGHT > 1
+#if HEIGHT > 2
   return phases.even + density.x * phases.first + density.y * phases.second;
 #else
   return phases.even + density * phases.first;
@@ -76,7 +76,7 @@ Phases sharesOf(Phases phases) {
   Spectrum all = 1.0 / max(phaseOf(phases, Layers(1.0)), Spectrum(1e-30));
   phases.even *= all;
   phases.first *= all;
-#if HEIGHT > 1
+#if HEIGHT > 2
   phases.second *= all;
 #endif
   return phases;

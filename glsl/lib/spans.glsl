@@ -27,7 +27,7 @@ void addWeighted(Airlight light, float s0, float s1, Visibility mean, Visibility
 #else
 // As two halves, unless the visibility is even, or the airlight nearly falls along a line.
 void addWeighted(Airlight light, float s0, float s1, Visibility mean, Visibility moment, inout Light sum) {
-#if HEIGHT && LIGHT_KIND == 0
+#if HEIGHT > 1 && LIGHT_KIND == 0
   if (isShort(light, s0, s1)) {
     Light own = Light(0.0);
     Spectrum fall = addShort(light, s0, s1, Visibility(1.0), own);

@@ -102,7 +102,6 @@ void setCameraRays(blocks::FrameBlock& block, const Frame& frame) {
 void setLayers(blocks::FrameBlock& block, const Frame& frame) {
   if (!isLayered(frame.medium)) return;
   block.layerCount = static_cast<int>(frame.medium.layers.size());
-  block.onlyLayer = onlyLayerOf(frame.medium);
   const glm::dvec3 origin = cameraOrigin(frame.camera);
   for (int i = 0; i < block.layerCount; ++i) {
     const Density density = densityOf(frame.medium, i, origin);
@@ -180,7 +179,6 @@ blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
     block.phaseShape[k] = phaseNormAndShape(frame.medium.constituents[k], norm);
     block.phaseWeight[k] = glm::vec4(glm::vec3(shares[k] * norm), frame.medium.constituents[k].layer + 1);
   }
-  block.onlyLayer = kEverywhere;
   setLayers(block, frame);
   block.lightCeiling = sizes.lightCeiling;
   block.colourMax = sizes.colourMax;

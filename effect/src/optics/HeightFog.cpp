@@ -26,18 +26,6 @@ bool isLayered(const Medium& medium) {
   return false;
 }
 
-int layersOf(const Medium& medium) { return isLayered(medium) ? static_cast<int>(medium.layers.size()) : 0; }
-
-int onlyLayerOf(const Medium& medium) {
-  int only = kEverywhere;
-  for (int i = kEverywhere; i < static_cast<int>(medium.layers.size()); ++i) {
-    if (extinctionOf(medium, i) == dvec3(0)) continue;
-    if (i == kEverywhere || only != kEverywhere) return kEverywhere;
-    only = i;
-  }
-  return only;
-}
-
 Density densityOf(const Medium& medium, int layer, const dvec3& origin) {
   const HeightLayer& of = medium.layers[static_cast<std::size_t>(layer)];
   Density density;

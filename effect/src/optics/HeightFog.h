@@ -17,12 +17,6 @@ glm::dvec3 extinctionOf(const Medium& medium, int layer);
 /// True if any coefficient but 0 follows a layer.
 bool isLayered(const Medium& medium);
 
-/// How many layers shaders have to know of: 0 unless it is layered.
-int layersOf(const Medium& medium);
-
-/// The layer that all of the medium follows; kEverywhere if there is none.
-int onlyLayerOf(const Medium& medium);
-
 /// A layer's density at x, relative to an origin: exp(-max(dot(gradient, x) + offset, ground)).
 struct Density {
   glm::dvec3 gradient{0};

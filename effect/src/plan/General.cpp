@@ -56,6 +56,12 @@ bool seesLayers(std::string_view fragment, const Values& values) {
          values["LOW_RANK"] == 0 && values["SHARES"] == 0;
 }
 
+// One layer has programs of its own where most is marched: by the nearest texels, without glass and smoke.
+bool hasProgramsForOneLayer(std::string_view fragment, const Values& values) {
+  return isOneOf(fragment, {"exact", "fixup", "march", "marchExtra"}) && values["FILTER_BILINEAR"] == 0 &&
+         values["GLASS"] == 0 && values["CURVES"] == 0 && values["SHADOW_VIEWS"] != 0;
+}
+
 // Lights without a map, a medium with layers, low rank, the debug view of visits, pixels marched between slices or where shares of the light
 // do not tell, and mixtures.
 bool isSeldom(std::string_view fragment, const Values& values) {
@@ -99,6 +105,8 @@ gl::Definitions general(const std::string& fragment, gl::Definitions definitions
   Values values(definitions);
   if (!seesLayers(fragment, values)) values.set("HEIGHT", 0);
   if (isOneOf(fragment, {"transmittance"})) values.set("MONOCHROME", 0);
+  if (values["HEIGHT"] != 0 && !hasProgramsForOneLayer(fragment, values)) values.set("HEIGHT", 3);
+  if (values["HEIGHT"] == 3 && !isOneOf(fragment, {"unwarp", "unwarpEdges"})) values.set("MONOCHROME", 0);
   if (values["COUNT_VISITS"] != 0) { // which depend neither on the medium nor on smoke
     values.set("MONOCHROME", 1);
     values.set("CURVES", 0);

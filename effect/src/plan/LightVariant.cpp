@@ -1,7 +1,5 @@
 #include "plan/LightVariant.h"
 
-#include <tyndall/tyndall.h>
-
 namespace tyndall {
 
 gl::Definitions definitionsOf(const LightVariant& v) {
@@ -21,7 +19,7 @@ gl::Definitions definitionsOf(const LightVariant& v) {
 LightVariant served(LightVariant variant) {
   const int kinds = (variant.bilinear ? 1 : 0) + (variant.glass ? 1 : 0) + (variant.curves ? 1 : 0);
   const bool isSunThroughGlass = variant.lightKind == 0 && !variant.bilinear && variant.layers == 0; // and smoke
-  if (variant.layers > 1 || variant.shadowViews == 0 || (kinds > 1 && !isSunThroughGlass)) variant.monochrome = false;
+  if (variant.layers > 2 || variant.shadowViews == 0 || (kinds > 1 && !isSunThroughGlass)) variant.monochrome = false;
   return variant;
 }
 
@@ -38,7 +36,7 @@ std::vector<LightVariant> allLightVariants(bool dualSource) {
         all.push_back(served(v));
       }
   };
-  for (int kind = 0; kind < 3 * (1 + kMaxHeightLayers); ++kind) {
+  for (int kind = 0; kind < 12; ++kind) {
     LightVariant v;
     v.lightKind = kind % 3;
     v.layers = kind / 3;

@@ -14,7 +14,7 @@ struct LightVariant {
   bool bilinear = false;
   bool glass = false;
   bool curves = false; ///< smoke and hair dim the light (Light::curves)
-  int layers = 0; ///< of the medium, that thin out with height
+  int layers = 0; ///< HEIGHT of glsl/lib/height.glsl: how a part of the medium thins out with height
   bool monochrome = false;
   bool composite = false; ///< dual-source outputs of unwarp and transmittance instead of two targets
   bool dualSource = true; ///< the context has such outputs, and uses them

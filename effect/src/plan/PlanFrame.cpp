@@ -41,11 +41,20 @@ bool sumIsCapped(const Frame& frame, float most, std::size_t lights) {
   });
 }
 
+// LightVariant::layers.
+int layersFor(const Medium& medium, const Light& light) {
+  constexpr int kNone = 0, kOnlyLayer = 1, kOneLayer = 2, kAny = 3;
+  if (!optics::isLayered(medium)) return kNone;
+  if (medium.layers.size() > 1 || light.boundary.enabled) return kAny;
+  const bool isSun = light.kind == LightKind::Directional;
+  return isSun && optics::extinctionOf(medium, optics::kEverywhere) == glm::dvec3(0) ? kOnlyLayer : kOneLayer;
+}
+
 // The shader variant of a light.
 LightVariant variantOf(const Frame& frame, const Light& light, bool dualSource, bool direct) {
   LightVariant variant;
   variant.dualSource = dualSource;
-  variant.layers = optics::layersOf(frame.medium);
+  variant.layers = layersFor(frame.medium, light);
   variant.monochrome = optics::isMonochrome(frame.medium);
   variant.composite = direct;
   variant.lightKind = static_cast<int>(light.kind);
@@ -77,7 +86,7 @@ FramePlanner::FramePlanner(const PlanInputs& inputs, Allocator& allocator, Plann
   passes_.extent.engines = {inputs.textures.colour.format, inputs.textures.inscatter.format,
                             inputs.textures.transmittance.format};
   passes_.variant.dualSource = inputs.tuning.compositing == Compositing::DualSource;
-  passes_.variant.layers = optics::layersOf(frame_.medium);
+  passes_.variant.layers = optics::isLayered(frame_.medium) ? 3 : 0;
   passes_.extent.sampledDepth = frame_.depth.multisampled;
   passes_.extent.sampleShift = optics::sampleShift(frame_, inputs.textures.depthSamples);
   passes_.paths.depthSamples = inputs.textures.depthSamples;
