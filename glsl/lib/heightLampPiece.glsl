@@ -43,11 +43,13 @@ void addPiece(Airlight light, float s0, float s1, Visibility visibility, inout L
   Way way = wayOf(light, P, s0);
   Spectrum least = way.whole;
   float s = s0;
-  for (int i = 0; i < kMostPanels && s < s1; ++i) {
+  bool more = s1 > s0;
+  for (int i = 0; i < kMostPanels && more; ++i) {
     Spectrum alive = aliveAt(way, least);
     if (greatestOf(alive) == 0.0) break;
     float N = light.height2 / P, t = 0.5 * (P - N), r = 0.5 * (P + N), smoothStep = smoothLength(light, s, r), step = min(stepFrom(followed, s), smoothStep);
-    float toEnd = panelLength(t, r, t1, r1, s1 - s, light.height2), len = min(toEnd, longPanel), ahead = t + step;
+    float left = abs(t) < s ? t1 - t : s1 - s; // by the smaller, which is known better: next to the lamp, or to the eye
+    float toEnd = panelLength(t, r, t1, r1, max(left, 0.0), light.height2), len = min(toEnd, longPanel), ahead = t + step;
     if (step < 1e6 * r) len = min(len, panelLength(t, r, ahead, sqrt(ahead * ahead + light.height2), step, light.height2));
     Way end = wayOf(light, P * exp(len), s + stepAlong(light, P, len));
     float change = changeOf(alive, least, way, end);
@@ -75,7 +77,8 @@ void addPiece(Airlight light, float s0, float s1, Visibility visibility, inout L
       panel += node.y * pointIntegrand(light, Pm * exp(x), sm + stepAlong(light, Pm, x));
     }
     sum += (halfLength * visibility) * Light(panel);
-    s = len == toEnd ? s1 : sm + stepAlong(light, Pm, halfLength);
+    more = len < toEnd;
+    s = sm + stepAlong(light, Pm, halfLength);
     P = Pm * middle;
     least = min(least, end.whole);
     way = end;

@@ -118,9 +118,8 @@ Spectrum addShort(Airlight light, float s0, float s1, Visibility visibility, ino
   float len = s1 - s0, s = 0.5 * (s0 + s1);
   Layers here = light.heights.begin + s * light.heights.slope, slope = light.heights.slope * aboveGround(here), density = densities(here);
   Spectrum rate = extinctionOf(density), growth = layersExtinction(density * slope); // of the way to the eye, and what that rate falls by
-  Spectrum depth = s * extinctionOf(meanDensities(light.heights.begin, here)), even = light.phases.even;
-  Spectrum value = phaseOf(light.phases, density), folds = phaseOf(light.phases, density * slope) - even; // folds, folds2: the sums times slope, its square
-  Spectrum folds2 = phaseOf(light.phases, density * slope * slope) - even;
+  Spectrum depth = s * extinctionOf(meanDensities(light.heights.begin, here)), value = phaseOf(light.phases, density);
+  Spectrum folds = layersPhase(light.phases, density * slope), folds2 = layersPhase(light.phases, density * slope * slope);
   Spectrum curve = value * (rate * rate + growth) + 2.0 * rate * folds + folds2, passed = exp(-depth) * len;
   sum += visibility * Light(passed * (value + len * len / 24.0 * curve));
   return len * (rate + folds / max(value, Spectrum(1e-37)));

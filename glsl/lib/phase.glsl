@@ -63,13 +63,14 @@ Phases phasesTowardsEye(float oneMinusCos, float onePlusCos) {
   return phases;
 }
 
-Spectrum phaseOf(Phases phases, Layers density) {
+Spectrum layersPhase(Phases phases, Layers density) {
 #if HEIGHT > 2
-  return phases.even + density.x * phases.first + density.y * phases.second;
+  return density.x * phases.first + density.y * phases.second;
 #else
-  return phases.even + density * phases.first;
+  return density * phases.first;
 #endif
 }
+Spectrum phaseOf(Phases phases, Layers density) { return phases.even + layersPhase(phases, density); }
 
 // As parts of their sum.
 Phases sharesOf(Phases phases) {
