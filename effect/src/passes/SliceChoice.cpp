@@ -76,7 +76,7 @@ void plan(LightPlanner& light) {
 
 bool tellsShares(const LightPlanner& light) {
   return isMade(light) && light.light.kind == LightKind::Directional && !light.light.boundary.enabled &&
-         light.variant.layers == 0;
+         light.variant.layers == kNoLayers;
 }
 
 } // namespace tyndall::passes::slice_choice

@@ -1,5 +1,7 @@
 #include "plan/General.h"
 
+#include "plan/LightVariant.h"
+
 #include <algorithm>
 #include <initializer_list>
 #include <string_view>
@@ -103,10 +105,10 @@ void chooseMaps(std::string_view fragment, Values values) {
 
 gl::Definitions general(const std::string& fragment, gl::Definitions definitions) {
   Values values(definitions);
-  if (!seesLayers(fragment, values)) values.set("HEIGHT", 0);
+  if (!seesLayers(fragment, values)) values.set("HEIGHT", kNoLayers);
   if (isOneOf(fragment, {"transmittance"})) values.set("MONOCHROME", 0);
-  if (values["HEIGHT"] != 0 && !hasProgramsForOneLayer(fragment, values)) values.set("HEIGHT", 3);
-  if (values["HEIGHT"] == 3 && !isOneOf(fragment, {"unwarp", "unwarpEdges"})) values.set("MONOCHROME", 0);
+  if (values["HEIGHT"] != 0 && !hasProgramsForOneLayer(fragment, values)) values.set("HEIGHT", kAnyLayers);
+  if (values["HEIGHT"] == kAnyLayers && !isOneOf(fragment, {"unwarp", "unwarpEdges"})) values.set("MONOCHROME", 0);
   if (values["COUNT_VISITS"] != 0) { // which depend neither on the medium nor on smoke
     values.set("MONOCHROME", 1);
     values.set("CURVES", 0);

@@ -18,8 +18,8 @@ gl::Definitions definitionsOf(const LightVariant& v) {
 
 LightVariant served(LightVariant variant) {
   const int kinds = (variant.bilinear ? 1 : 0) + (variant.glass ? 1 : 0) + (variant.curves ? 1 : 0);
-  const bool isSunThroughGlass = variant.lightKind == 0 && !variant.bilinear && variant.layers == 0; // and smoke
-  if (variant.layers > 2 || variant.shadowViews == 0 || (kinds > 1 && !isSunThroughGlass)) variant.monochrome = false;
+  const bool isSunThroughGlass = variant.lightKind == 0 && !variant.bilinear && variant.layers == kNoLayers; // and smoke
+  if (variant.layers == kAnyLayers || variant.shadowViews == 0 || (kinds > 1 && !isSunThroughGlass)) variant.monochrome = false;
   return variant;
 }
 
@@ -36,19 +36,23 @@ std::vector<LightVariant> allLightVariants(bool dualSource) {
         all.push_back(served(v));
       }
   };
-  for (int kind = 0; kind < 12; ++kind) {
+  const auto addKind = [&](int kind, int layers) {
     LightVariant v;
-    v.lightKind = kind % 3;
-    v.layers = kind / 3;
+    v.lightKind = kind;
+    v.layers = layers;
     add(v);
     for (int bits = 0; bits < 16; ++bits) {
       v.shadowArray = (bits & 1) != 0;
       v.bilinear = (bits & 2) != 0;
       v.glass = (bits & 4) != 0;
       v.curves = (bits & 8) != 0;
-      for (v.shadowViews = 1; v.shadowViews <= (v.lightKind != 2 ? 2 : 1); ++v.shadowViews)
+      for (v.shadowViews = 1; v.shadowViews <= (kind != 2 ? 2 : 1); ++v.shadowViews)
         add(v);
     }
+  };
+  for (int kind = 0; kind < 3; ++kind) {
+    for (int layers = 0; layers <= kAnyLayers; ++layers)
+      addKind(kind, layers);
   }
   return all;
 }

@@ -7,6 +7,10 @@
 
 namespace tyndall {
 
+/// HEIGHT of glsl/lib/height.glsl: how the medium thins out with height. Not at all; all of it by its only layer, before
+/// a sun that loses nothing on its way; a part of it by that; in any way.
+inline constexpr int kNoLayers = 0, kOnlyLayer = 1, kOneLayer = 2, kAnyLayers = 3;
+
 struct LightVariant {
   int lightKind = 0;   ///< 0 directional, 1 point, 2 spot
   int shadowViews = 0; ///< 0, 1, or 2 for several
@@ -14,7 +18,7 @@ struct LightVariant {
   bool bilinear = false;
   bool glass = false;
   bool curves = false; ///< smoke and hair dim the light (Light::curves)
-  int layers = 0; ///< HEIGHT of glsl/lib/height.glsl: how a part of the medium thins out with height
+  int layers = kNoLayers;
   bool monochrome = false;
   bool composite = false; ///< dual-source outputs of unwarp and transmittance instead of two targets
   bool dualSource = true; ///< the context has such outputs, and uses them

@@ -41,11 +41,10 @@ bool sumIsCapped(const Frame& frame, float most, std::size_t lights) {
   });
 }
 
-// LightVariant::layers.
+// Which programs its layers take.
 int layersFor(const Medium& medium, const Light& light) {
-  constexpr int kNone = 0, kOnlyLayer = 1, kOneLayer = 2, kAny = 3;
-  if (!optics::isLayered(medium)) return kNone;
-  if (medium.layers.size() > 1 || light.boundary.enabled) return kAny;
+  if (!optics::isLayered(medium)) return kNoLayers;
+  if (medium.layers.size() > 1 || light.boundary.enabled) return kAnyLayers;
   const bool isSun = light.kind == LightKind::Directional;
   return isSun && optics::extinctionOf(medium, optics::kEverywhere) == glm::dvec3(0) ? kOnlyLayer : kOneLayer;
 }
@@ -86,7 +85,7 @@ FramePlanner::FramePlanner(const PlanInputs& inputs, Allocator& allocator, Plann
   passes_.extent.engines = {inputs.textures.colour.format, inputs.textures.inscatter.format,
                             inputs.textures.transmittance.format};
   passes_.variant.dualSource = inputs.tuning.compositing == Compositing::DualSource;
-  passes_.variant.layers = optics::isLayered(frame_.medium) ? 3 : 0;
+  passes_.variant.layers = optics::isLayered(frame_.medium) ? kAnyLayers : kNoLayers;
   passes_.extent.sampledDepth = frame_.depth.multisampled;
   passes_.extent.sampleShift = optics::sampleShift(frame_, inputs.textures.depthSamples);
   passes_.paths.depthSamples = inputs.textures.depthSamples;

@@ -81,6 +81,14 @@ void addInputs(std::vector<FrameCase>& all) {
   chosen = make("epipolar, error target, multisampled depth", Technique::Epipolar);
   chosen.chosen = chosen.multisampled = true;
   all.push_back(chosen);
+  for (const Technique technique : {Technique::Epipolar, Technique::Exact}) {
+    all.push_back(make(technique == Technique::Exact ? "exact, height fog" : "epipolar, height fog", technique));
+    all.back().fog = true;
+    all.push_back(all.back());
+    all.back().name += ", two lights, all targets";
+    all.back().lights = {kLamp, kSpot};
+    all.back().targets = kAll;
+  }
   FrameCase bright = make("epipolar, sum over what colour holds", Technique::Epipolar, kAll, {kSun, kSpot});
   bright.bright = true;
   all.push_back(bright);
@@ -316,6 +324,10 @@ Stage::Stage(const FrameCase& frameCase, int width, int height, RigContext conte
   settings.slices = 32;
   settings.samples = 64;
   settings.shadowFilter = case_.bilinear ? ShadowFilter::Bilinear : ShadowFilter::Nearest;
+  if (case_.fog) {
+    frame.medium.layers = {{0, 2, -1}};
+    frame.medium.constituents.front().layer = 0;
+  }
   if (case_.spread) settings.spreadThreshold = 0.02F;
   if (case_.chosen) settings.errorTarget = 0.02F;
   if (case_.multisampled) {

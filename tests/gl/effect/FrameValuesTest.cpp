@@ -118,6 +118,43 @@ const std::vector<NumberRule> kNumberRules = {
      "between -1 and 1"},
     {"medium.absorption", 3, [](Frame& f, int i, double v) { put(f.medium.absorption, i, v); }, kNotFiniteOrNegative,
      "finite and >= 0"},
+    {"medium.layers[1].height",
+     1,
+     [](Frame& f, int, double v) {
+       f.medium.layers.resize(2);
+       f.medium.layers[1].height = v;
+     },
+     kNotFinite,
+     "finite"},
+    {"medium.layers[0].scale",
+     1,
+     [](Frame& f, int, double v) { f.medium.layers = {{0, v}}; },
+     {kNan, 0, -1, kMinusInfinity},
+     "> 0"},
+    {"medium.layers[0].ground",
+     1,
+     [](Frame& f, int, double v) { f.medium.layers = {{0, 1, v}}; },
+     {kNan, kInfinity},
+     "finite, or -infinity"},
+    {"medium.up", 3,
+     [](Frame& f, int i, double v) {
+       f.medium.layers.resize(1);
+       put(f.medium.up, i, v);
+     },
+     kNotFinite, "finite and not 0"},
+    {"medium.constituents[1].layer",
+     1,
+     [](Frame& f, int, double v) { f.medium.constituents[1].layer = static_cast<int>(v); },
+     {-2, 0, 1},
+     "one of the 0"},
+    {"medium.absorptionLayer",
+     1,
+     [](Frame& f, int, double v) {
+       f.medium.layers.resize(2);
+       f.medium.absorptionLayer = static_cast<int>(v);
+     },
+     {-2, 2},
+     "one of the 2"},
     {"medium.farDistance",
      1,
      [](Frame& f, int, double v) { f.medium.farDistance = v; },
@@ -219,6 +256,13 @@ const std::vector<Breakage> kBreakages = {
     {"5 constituents",
      [](Frame& f) { f.medium.constituents.resize(5); },
      {"medium.constituents is 5 long", "at most 4"}},
+    {"3 layers", [](Frame& f) { f.medium.layers.resize(3); }, {"medium.layers is 3 long", "at most 2"}},
+    {"no up",
+     [](Frame& f) {
+       f.medium.layers.resize(1);
+       f.medium.up = {0, 0, 0};
+     },
+     {"medium.up", "not 0"}},
     {"phase 4",
      [](Frame& f) { setEnum(f.medium.constituents[1].phase, 4); },
      {"medium.constituents[1].phase is 4", "enumerators"}},

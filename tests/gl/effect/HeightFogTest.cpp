@@ -1,8 +1,10 @@
 // Media that thin out with height (Medium::layers): unshadowed light against adaptive quadrature, limits, and rules.
 #include "AirlightSweep.h"
+#include "ShaftRig.h"
+#include "reference/Metrics.h"
 #include "support/Catch.h"
-#include "support/EffectRig.h"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace tyndall;
@@ -111,4 +113,101 @@ TEST_CASE("unshadowed spot light through layers equals adaptive quadrature", "[s
     CAPTURE(layer.height, layer.scale, layer.ground);
     CHECK(errorOf({spot(), hazeAndFog(layer)}) <= 1e-4);
   }
+}
+
+namespace {
+
+// Fog on the floor of the scene of shafts, and haze.
+Medium shaftFog(bool withHaze) {
+  Medium medium;
+  medium.layers = {{0, 1.5, -0.5}};
+  medium.constituents = {{{0.06F, 0.06F, 0.06F}, Phase::HenyeyGreenstein, 0.4F, 0}};
+  if (withHaze) medium.constituents.push_back({{0.004F, 0.006F, 0.01F}, Phase::Rayleigh});
+  medium.farDistance = 60;
+  return medium;
+}
+
+Light shadowed(LightKind kind) {
+  Light light = tests::shaftLight(kind);
+  light.colour = {3, 2, 1};
+  return light;
+}
+
+} // namespace
+
+TEST_CASE("exact through layers equals map-exact: every light, filter, glass, and light that loses some on its way") {
+  for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot})
+    for (const bool glass : {false, true})
+      for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear}) {
+        tests::SceneRig rig;
+        Light& light = rig.addLight(kind, tests::Casters::Blocks, glass);
+        if (kind == LightKind::Directional && glass) light.boundary = {true, {0, 5, 0}, {0, 1, 0.1}};
+        rig.frame.settings.technique = Technique::Exact;
+        rig.frame.settings.shadowFilter = filter;
+        for (const Medium& medium : {shaftFog(false), shaftFog(true), twoLayers({0.5, 0.7}, {1, 4, -1})}) {
+          rig.frame.medium = medium;
+          rig.frame.medium.farDistance = 40;
+          const reference::ImageAnswer got = rig.render(), wanted = rig.reference();
+          CAPTURE(static_cast<int>(kind), glass, static_cast<int>(filter), medium.layers.size());
+          CHECK(reference::compare(got.inscatter, wanted.inscatter).rRmse <= 1e-3);
+          CHECK(tests::difference(got.transmittance, wanted.transmittance) <= 1e-5);
+        }
+      }
+}
+
+TEST_CASE("every technique is as near to exact through layers as through an even medium") {
+  for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot}) {
+    tests::ShaftRig rig;
+    rig.addLight(shadowed(kind));
+    for (const Technique technique : {Technique::Tree, Technique::Epipolar, Technique::LowRank}) {
+      Medium even = shaftFog(true);
+      for (Constituent& c : even.constituents)
+        c.layer = -1;
+      rig.scene.frame.medium = even;
+      rig.changed();
+      const tests::ShaftError without = rig.error(rig.picture(technique));
+      for (const bool haze : {false, true}) {
+        rig.scene.frame.medium = shaftFog(haze);
+        rig.changed();
+        const tests::ShaftError with = rig.error(rig.picture(technique));
+        CAPTURE(static_cast<int>(kind), static_cast<int>(technique), haze, without.rRmse, with.displaced);
+        CHECK(with.rRmse <= std::max(1.25 * without.rRmse, with.displaced) + 2e-3);
+      }
+    }
+  }
+}
+
+TEST_CASE("a layer whose scale grows without end becomes an even medium") {
+  for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot}) {
+    tests::SceneRig rig;
+    rig.addLight(kind);
+    for (const Technique technique : {Technique::Exact, Technique::Epipolar}) {
+      rig.frame.settings.technique = technique;
+      rig.frame.medium = shaftFog(true);
+      rig.frame.medium.constituents[0].layer = -1;
+      rig.frame.medium.farDistance = 40;
+      const reference::ImageAnswer even = rig.render();
+      rig.frame.medium.constituents[0].layer = 0;
+      for (const double scale : {1e9, kInfinity}) {
+        rig.frame.medium.layers = {{0, scale}};
+        const reference::ImageAnswer layered = rig.render();
+        CAPTURE(static_cast<int>(kind), static_cast<int>(technique), scale);
+        // Epipolar textures hold colours in half floats, in a unit that depends on the layers.
+        CHECK(reference::compare(layered.inscatter, even.inscatter).rRmse <=
+              (technique == Technique::Exact ? 1e-6 : 0x1p-11));
+        CHECK(tests::difference(layered.transmittance, even.transmittance) <= 1e-6);
+      }
+    }
+  }
+}
+
+TEST_CASE("low rank says why it takes a medium with layers as tree does") {
+  tests::ShaftRig rig = tests::smallShaftRig(Technique::LowRank);
+  rig.scene.frame.medium = shaftFog(true);
+  const reference::Image lowRank = rig.picture(Technique::LowRank);
+  const std::vector<PassStatistics> passes = tests::testEffect().statistics().passes;
+  CHECK(std::any_of(passes.begin(), passes.end(), [](const PassStatistics& pass) {
+    return pass.name == "light 0 low rank" && pass.skipped.find("two coordinates") != std::string::npos;
+  }));
+  CHECK(lowRank.rgb == rig.picture(Technique::Tree).rgb);
 }

@@ -104,6 +104,46 @@ TEST_CASE("A medium that breaks a rule is refused by field", "[scene][medium]") 
   }
 }
 
+TEST_CASE("Layers of a medium, and who follows them, are read or refused by field", "[scene][medium]") {
+  using Catch::Contains;
+  const auto layered = [] {
+    nlohmann::json json = good();
+    json["layers"] = nlohmann::json::parse(R"([{"height": 2, "scale": 30, "ground": -1}, {}])");
+    json["up"] = {0, 0, 2};
+    json["constituents"][1]["layer"] = 1;
+    json["absorptionLayer"] = 0;
+    return json;
+  };
+  const tyndall::Medium medium = host::parseMedium(layered(), "fog");
+  REQUIRE(medium.layers.size() == 2);
+  CHECK(medium.layers[0].height == 2);
+  CHECK(medium.layers[0].scale == 30);
+  CHECK(medium.layers[0].ground == -1);
+  CHECK(medium.layers[1].scale == tyndall::kInfinity);
+  CHECK(medium.layers[1].ground == -tyndall::kInfinity);
+  CHECK(medium.up == tyndall::Vec3{0, 0, 2});
+  CHECK(medium.constituents[0].layer == -1);
+  CHECK(medium.constituents[1].layer == 1);
+  CHECK(medium.absorptionLayer == 0);
+  const auto refused = [&](const std::string& path, const nlohmann::json& value) {
+    nlohmann::json json = layered();
+    json[nlohmann::json::json_pointer(path)] = value;
+    return refusal(json);
+  };
+  CHECK_THAT(refused("/layers/2", nlohmann::json::object()), Contains("fog.layers: must be an array of at most 2"));
+  CHECK_THAT(refused("/layers", 1), Contains("fog.layers: must be an array"));
+  CHECK_THAT(refused("/layers/0/width", 1), Contains("fog.layers[0]: unknown key \"width\""));
+  CHECK_THAT(refused("/layers/0/scale", 0), Contains("fog.layers[0].scale: 0 must be greater than 0"));
+  CHECK_THAT(refused("/layers/0/scale", NAN), Contains("fog.layers[0].scale: null must be a finite number"));
+  CHECK_THAT(refused("/layers/0/height", "low"), Contains("fog.layers[0].height: \"low\" must be a finite number"));
+  CHECK_THAT(refused("/layers/0/ground", INFINITY), Contains("fog.layers[0].ground"));
+  CHECK_THAT(refused("/up", {0, 0, 0}), Contains("fog.up: must not be 0"));
+  CHECK_THAT(refused("/up", {1, 0}), Contains("fog.up: must be 3 numbers"));
+  CHECK_THAT(refused("/constituents/1/layer", 2), Contains("fog.constituents[1].layer: 2 must be the index"));
+  CHECK_THAT(refused("/constituents/1/layer", -1), Contains("fog.constituents[1].layer"));
+  CHECK_THAT(refused("/absorptionLayer", 0.5), Contains("fog.absorptionLayer: 0.5 must be the index"));
+}
+
 TEST_CASE("A medium file is read, or refused by name", "[scene][medium]") {
   using Catch::Contains;
   const TemporaryFolder folder;
