@@ -1,9 +1,9 @@
 // The JSON form of a medium: {"constituents": [{"scattering": [r, g, b], "phase": "henyey-greenstein", "g": 0.6}],
 // "absorption": [r, g, b], "farDistance": d}. Coefficients in 1/world unit, the distance in world units.
 // phase: isotropic (default), rayleigh, henyey-greenstein, cornette-shanks; g only for the last two.
-// What thins out with height: "layers": [{"height": h, "scale": H, "ground": h}] (world units; without a scale density is
-// the same everywhere, without a ground it grows on below), at most two, along "up": [x, y, z] ([0, 1, 0]); "layer": i of
-// a constituent, and "absorptionLayer": i, are those that they follow.
+// What thins out with height: "layers": [{"height": h, "scale": H, "ground": h}] (world units; without a scale density
+// is the same everywhere, without a ground it grows on below), at most two, along "up": [x, y, z] ([0, 1, 0]); "layer":
+// i of a constituent, and "absorptionLayer": i, are those that they follow.
 #pragma once
 
 #include <filesystem>

@@ -10,7 +10,8 @@ namespace {
 
 std::string numberCode(double number, bool isFloat) {
   if (std::isinf(number))
-    return (number < 0 ? "-" : "") + std::string(isFloat ? "std::numeric_limits<float>::infinity()" : "tyndall::kInfinity");
+    return (number < 0 ? "-" : "") +
+           std::string(isFloat ? "std::numeric_limits<float>::infinity()" : "tyndall::kInfinity");
   std::string text = textOf(number, isFloat);
   if (!isFloat) return text;
   if (text.find_first_of(".e") == std::string::npos) text += ".0";

@@ -47,9 +47,8 @@ public:
   template <class Weight>
   Rgb weighted(double s0, double s1, const Weight& weight) const {
     Rgb sum{0};
-    forEachPiece(s0, s1, [&](double a, double b) {
-      sum += layers_ ? layeredPiece(a, b, weight) : weightedPiece(a, b, weight);
-    });
+    forEachPiece(
+        s0, s1, [&](double a, double b) { sum += layers_ ? layeredPiece(a, b, weight) : weightedPiece(a, b, weight); });
     return sum;
   }
 

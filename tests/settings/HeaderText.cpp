@@ -92,9 +92,8 @@ std::vector<std::string> enumeratorsOf(const std::string& header, const std::str
 std::vector<std::string> unknownFields(const std::string& header) {
   const std::set<std::string> known = knownFields();
   std::set<std::string> declared;
-  for (const char* name :
-       {"Frame", "Config", "Settings", "Reuse", "Tuning", "Medium", "Constituent", "HeightLayer", "Light",
-                           "MediumBoundary"})
+  for (const char* name : {"Frame", "Config", "Settings", "Reuse", "Tuning", "Medium", "Constituent", "HeightLayer",
+                           "Light", "MediumBoundary"})
     for (const std::string& field : fieldsOf(header, name))
       declared.insert(std::string(name) + "." + field);
   std::vector<std::string> unknown;

@@ -194,8 +194,8 @@ double brightestInscatter(const Frame& frame, const Light& light) {
   double brightest = 0;
   for (int c = 0; c < 3; ++c)
     if (lamp.lightColour[c] > 0)
-      brightest = std::max(brightest, lamp.lightColour[c] * phase[c] *
-                                          (light.kind == LightKind::Directional ? way[c] : passed));
+      brightest = std::max(brightest,
+                           lamp.lightColour[c] * phase[c] * (light.kind == LightKind::Directional ? way[c] : passed));
   return brightest;
 }
 

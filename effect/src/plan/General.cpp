@@ -47,14 +47,13 @@ bool isMixture(const Values& values) { return values["FILTER_BILINEAR"] + values
 // But a sun through glass and grey smoke is what one renders: its rays are marched by programs of their own.
 bool isOfSunbeams(std::string_view fragment, const Values& values) {
   return values["LIGHT_KIND"] == 0 && values["FILTER_BILINEAR"] == 0 && values["MONOCHROME"] != 0 &&
-         values["HEIGHT"] == 0 &&
-         isOneOf(fragment, {"march", "marchExtra"});
+         values["HEIGHT"] == 0 && isOneOf(fragment, {"march", "marchExtra"});
 }
 
 // Where the medium's layers are looked at: where light is integrated, and what is left of the picture behind.
 bool seesLayers(std::string_view fragment, const Values& values) {
-  return isOneOf(fragment, {"exact", "fixup", "march", "marchExtra", "pixelTree", "transmittance", "unwarp",
-                            "unwarpEdges"}) &&
+  return isOneOf(fragment,
+                 {"exact", "fixup", "march", "marchExtra", "pixelTree", "transmittance", "unwarp", "unwarpEdges"}) &&
          values["LOW_RANK"] == 0 && values["SHARES"] == 0;
 }
 
@@ -64,13 +63,13 @@ bool hasProgramsForOneLayer(std::string_view fragment, const Values& values) {
          values["GLASS"] == 0 && values["CURVES"] == 0 && values["SHADOW_VIEWS"] != 0;
 }
 
-// Lights without a map, a medium with layers, low rank, the debug view of visits, pixels marched between slices or where shares of the light
-// do not tell, and mixtures.
+// Lights without a map, a medium with layers, low rank, the debug view of visits, pixels marched between slices or
+// where shares of the light do not tell, and mixtures.
 bool isSeldom(std::string_view fragment, const Values& values) {
   if (!isOneOf(fragment, {"exact", "fixup", "march", "marchExtra", "pixelTree"})) return values["ROW_HASHES"] != 0;
   if (values["SHADOW_VIEWS"] == 0) return true;
-  return isOneOf(fragment, {"fixup"}) || values["HEIGHT"] != 0 || values["LOW_RANK"] != 0 || values["COUNT_VISITS"] != 0 ||
-         values["SHARES"] != 0 || (isMixture(values) && !isOfSunbeams(fragment, values));
+  return isOneOf(fragment, {"fixup"}) || values["HEIGHT"] == kAnyLayers || values["LOW_RANK"] != 0 ||
+         values["COUNT_VISITS"] != 0 || values["SHARES"] != 0 || (isMixture(values) && !isOfSunbeams(fragment, values));
 }
 
 // One view of an array may be the first of several: always where that costs little or is seldom asked for. A point
@@ -83,8 +82,8 @@ bool takesSeveral(std::string_view fragment, const Values& values) {
 // Several views of one texture where that is seldom: the light's maps are copied into an array (plan/MapCopies.cpp).
 bool isSeldomAtlas(std::string_view fragment, const Values& values) {
   if (values["SHADOW_ARRAY"] != 0 || values["SHADOW_VIEWS"] != 2) return false;
-  return isMixture(values) || values["HEIGHT"] != 0 || values["LOW_RANK"] != 0 || values["COUNT_VISITS"] != 0 || values["TINT_SUMS"] != 0 ||
-         isOneOf(fragment, {"fixup", "tintGroups"});
+  return isMixture(values) || values["HEIGHT"] == kAnyLayers || values["LOW_RANK"] != 0 || values["COUNT_VISITS"] != 0 ||
+         values["TINT_SUMS"] != 0 || isOneOf(fragment, {"fixup", "tintGroups"});
 }
 
 void chooseMaps(std::string_view fragment, Values values) {
@@ -107,7 +106,8 @@ gl::Definitions general(const std::string& fragment, gl::Definitions definitions
   Values values(definitions);
   if (!seesLayers(fragment, values)) values.set("HEIGHT", kNoLayers);
   if (isOneOf(fragment, {"transmittance"})) values.set("MONOCHROME", 0);
-  if (values["HEIGHT"] != 0 && !hasProgramsForOneLayer(fragment, values)) values.set("HEIGHT", kAnyLayers);
+  if (values["HEIGHT"] == kOnlyLayer && values["LIGHT_KIND"] != 0) values.set("HEIGHT", kOneLayer);
+  if (values["HEIGHT"] != kNoLayers && !hasProgramsForOneLayer(fragment, values)) values.set("HEIGHT", kAnyLayers);
   if (values["HEIGHT"] == kAnyLayers && !isOneOf(fragment, {"unwarp", "unwarpEdges"})) values.set("MONOCHROME", 0);
   if (values["COUNT_VISITS"] != 0) { // which depend neither on the medium nor on smoke
     values.set("MONOCHROME", 1);

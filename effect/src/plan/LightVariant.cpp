@@ -18,8 +18,10 @@ gl::Definitions definitionsOf(const LightVariant& v) {
 
 LightVariant served(LightVariant variant) {
   const int kinds = (variant.bilinear ? 1 : 0) + (variant.glass ? 1 : 0) + (variant.curves ? 1 : 0);
-  const bool isSunThroughGlass = variant.lightKind == 0 && !variant.bilinear && variant.layers == kNoLayers; // and smoke
-  if (variant.layers == kAnyLayers || variant.shadowViews == 0 || (kinds > 1 && !isSunThroughGlass)) variant.monochrome = false;
+  const bool isSunThroughGlass =
+      variant.lightKind == 0 && !variant.bilinear && variant.layers == kNoLayers; // and smoke
+  if (variant.layers == kAnyLayers || variant.shadowViews == 0 || (kinds > 1 && !isSunThroughGlass))
+    variant.monochrome = false;
   return variant;
 }
 

@@ -7,8 +7,8 @@
 
 namespace tyndall {
 
-/// HEIGHT of glsl/lib/height.glsl: how the medium thins out with height. Not at all; all of it by its only layer, before
-/// a sun that loses nothing on its way; a part of it by that; in any way.
+/// HEIGHT of glsl/lib/height.glsl: how the medium thins out with height. Not at all; all of it by its only layer,
+/// before a sun that loses nothing on its way; a part of it by that; in any way.
 inline constexpr int kNoLayers = 0, kOnlyLayer = 1, kOneLayer = 2, kAnyLayers = 3;
 
 struct LightVariant {

@@ -118,14 +118,12 @@ const std::vector<NumberRule> kNumberRules = {
      "between -1 and 1"},
     {"medium.absorption", 3, [](Frame& f, int i, double v) { put(f.medium.absorption, i, v); }, kNotFiniteOrNegative,
      "finite and >= 0"},
-    {"medium.layers[1].height",
-     1,
+    {"medium.layers[1].height", 1,
      [](Frame& f, int, double v) {
        f.medium.layers.resize(2);
        f.medium.layers[1].height = v;
      },
-     kNotFinite,
-     "finite"},
+     kNotFinite, "finite"},
     {"medium.layers[0].scale",
      1,
      [](Frame& f, int, double v) { f.medium.layers = {{0, v}}; },

@@ -8,9 +8,9 @@ namespace stress {
 
 namespace {
 
-constexpr const char* kNames[] = {"size",       "viewport",   "lens",     "pose",    "world",  "surface",
-                                  "depth-form", "lights",     "places",   "cones",   "views",  "map-size",
-                                  "texels",     "odd-texels", "layout",   "filter",  "medium", "far-distance",
+constexpr const char* kNames[] = {"size",       "viewport",   "lens",     "pose",     "world",  "surface",
+                                  "depth-form", "lights",     "places",   "cones",    "views",  "map-size",
+                                  "texels",     "odd-texels", "layout",   "filter",   "medium", "far-distance",
                                   "radiance",   "glass",      "settings", "relation", "layers"};
 static_assert(std::size(kNames) == kAxes);
 
