@@ -2,6 +2,7 @@
 
 #include "FieldText.h"
 #include "optics/Blocks.h"
+#include "optics/HeightFog.h"
 #include "optics/Projections.h"
 
 #include <algorithm>
@@ -107,7 +108,8 @@ Sight sightOf(const Frame& frame) {
 }
 
 void checkMedium(const Frame& frame, Findings& findings) {
-  const glm::dvec3 scattering = optics::scatteringOf(frame.medium), extinction = optics::extinctionOf(frame.medium);
+  const glm::dvec3 scattering = optics::scatteringOf(frame.medium);
+  const glm::dvec3 extinction = optics::extinctionAtEye(frame.medium, frame.camera);
   const double most = std::max({scattering.x, scattering.y, scattering.z});
   const double least = std::min({extinction.x, extinction.y, extinction.z});
   if (most == 0) {
@@ -122,7 +124,7 @@ void checkMedium(const Frame& frame, Findings& findings) {
         lineOf("medium", "so thick that nothing is seen",
                "1/extinction is " + text(1 / least) + " world units, the camera's near plane " + text(sight.near)));
   const double longest = std::max(std::isfinite(sight.end) ? sight.end : 0, frame.medium.farDistance);
-  if (most * longest < kClear)
+  if (most * longest < kClear && !optics::isLayered(frame.medium))
     findings.warnings.push_back(
         lineOf("medium", "so thin that nothing is seen of it",
                "1/scattering is " + text(1 / most) + " world units, the longest ray " + text(longest)));

@@ -6,6 +6,7 @@ const float kDepths = 2.0;  // optical depths of a panel
 const float kUnseen = 14.0; // e-folds from where a layer is brightest to where it is nothing
 const float kDark = 20.0;   // optical depths more than where it is brightest, after which nothing counts,
 const float kBlack = 80.0;  // or in all
+const float kEndless = 1e30; // optical depths, more than which are none: floats end there
 const int kMostPanels = 160;
 
 float greatestOf(float x) { return x; }

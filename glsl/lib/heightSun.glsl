@@ -26,13 +26,21 @@ Way wayOf(Airlight light, float s) {
   float path = light.path + s * light.pathSlope;
   if (path > 0.0) whole += path * extinctionOf(meanDensities(here, here - path * exponentSlopes(lightDirection)));
 #endif
-  return Way(eye, whole);
+  return Way(min(eye, Spectrum(kEndless)), min(whole, Spectrum(kEndless)));
 }
 
 // Change of the airlight's logarithm a unit of length, at s, at most.
 float rateAt(Airlight light, float s) {
-  Layers exponents = light.heights.begin + s * light.heights.slope;
-  return greatestOf(extinctionOf(densities(exponents))) * (1.0 + abs(light.pathSlope)) + sumOf(abs(light.heights.slope) * aboveGround(exponents));
+  Layers here = light.heights.begin + s * light.heights.slope, density = densities(here), slope = abs(light.heights.slope);
+  float rate = greatestOf(extinctionOf(density)) + sumOf(slope * aboveGround(here));
+#if HEIGHT == 3
+  // The light's way ends elsewhere on the boundary: pathSlope more of the density there; and all of it is at another height.
+  float path = max(light.path + s * light.pathSlope, 0.0);
+  Layers fall = exponentSlopes(lightDirection), there = densities(here - path * fall);
+  Layers higher = slope * min(abs(there - density) / max(abs(fall), 1e-30), path * max(there, density));
+  if (path > 0.0) rate += greatestOf(SPECTRUM(extinction)) * abs(light.pathSlope) + greatestOf(layersExtinction(there * abs(light.pathSlope) + higher));
+#endif
+  return rate;
 }
 
 // A length from s on over which the airlight changes by about a twentieth in any channel, but more and more where less is left of it.
@@ -52,7 +60,8 @@ float evenLength(Airlight light, float most, float s0, float s1) { return most /
 // What extinction takes is in proportion to what is scattered: the integral of density times transmittance is (T(s0) - T(s1)) / sigma.
 void addAirlight(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
   Layers begin = light.heights.begin, e0 = begin + s0 * light.heights.slope, e1 = begin + s1 * light.heights.slope;
-  float before = s0 * meanDensities(begin, e0), own = max(s1 - s0, 0.0) * meanDensities(e0, e1);
+  // No more than floats hold: what is as dense as that is dark.
+  float before = min(s0 * meanDensities(begin, e0), 1e30), own = min(max(s1 - s0, 0.0) * meanDensities(e0, e1), 1e30);
   Spectrum sigma = layersExtinction(1.0);
   sum += visibility * Light(light.phases.first * exp(-sigma * before) * relativeExpm1(sigma * own) * own);
 }

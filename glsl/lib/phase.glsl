@@ -60,6 +60,11 @@ Phases phasesTowardsEye(float oneMinusCos, float onePlusCos) {
     phases.second += layer == 2.0 ? phase : Spectrum(0.0);
 #endif
   }
+  // Nothing is scattered in a channel in which a layer takes nothing, however dense it is.
+  phases.first *= Spectrum(1.0) - step(SPECTRUM(layerExtinction[0]), Spectrum(0.0));
+#if HEIGHT > 2
+  phases.second *= Spectrum(1.0) - step(SPECTRUM(layerExtinction[1]), Spectrum(0.0));
+#endif
   return phases;
 }
 

@@ -48,7 +48,7 @@ uniform vec4 curveDepth[kMaxViews]; // linear depth of a relative position
 uniform float curveSize;            // texels per side
 #endif
 
-/// Integral of a layer's density over the exponents from a to b, which is a mean over the way between them.
+/// Mean density of a layer on the way between two exponents.
 float meanDensity(float a, float b, float ground) {
   float low = max(min(a, b), ground), high = max(max(a, b), ground), width = abs(b - a);
   float share = high - low < width ? (high - low) / width : 1.0, x = high - low;

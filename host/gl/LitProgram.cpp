@@ -151,7 +151,8 @@ void LightUniforms::setMedium(Program& program, const tyndall::Medium& medium, c
   constexpr std::size_t kLayers = tyndall::kMaxHeightLayers;
   std::vector<glm::dvec3> extinction(1 + kLayers, glm::dvec3(0)); // of what is the same everywhere, and of each layer
   const auto add = [&](int layer, const tyndall::Rgb& coefficient) {
-    extinction.at(static_cast<std::size_t>(layer + 1)) += glm::dvec3(toGlm(coefficient));
+    const auto place = static_cast<std::size_t>(layer + 1); // one that is none is the effect's to refuse
+    if (place < extinction.size()) extinction[place] += glm::dvec3(toGlm(coefficient));
   };
   add(medium.absorptionLayer, medium.absorption);
   for (const tyndall::Constituent& constituent : medium.constituents) {

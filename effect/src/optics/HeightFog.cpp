@@ -1,5 +1,6 @@
 #include "optics/HeightFog.h"
 
+#include "optics/Blocks.h"
 #include "optics/Matrices.h"
 
 #include <algorithm>
@@ -35,6 +36,13 @@ Density densityOf(const Medium& medium, int layer, const dvec3& origin) {
   density.offset = (glm::dot(up, origin) - of.height) / of.scale;
   density.ground = std::max((of.ground - of.height) / of.scale, density.ground);
   return density;
+}
+
+dvec3 extinctionAtEye(const Medium& medium, const Camera& camera) {
+  dvec3 sum = extinctionOf(medium, kEverywhere);
+  for (int i = 0; i < static_cast<int>(medium.layers.size()); ++i)
+    sum += densityOf(medium, i, cameraOrigin(camera)).at(dvec3(0)) * extinctionOf(medium, i);
+  return sum;
 }
 
 dvec3 longestWay(const Medium& medium, const dvec3& origin, double length) {

@@ -28,6 +28,9 @@ struct Density {
 };
 Density densityOf(const Medium& medium, int layer, const glm::dvec3& origin);
 
+/// Extinction at the point that shader positions are relative to, 1/world unit.
+glm::dvec3 extinctionAtEye(const Medium& medium, const Camera& camera);
+
 /// Per channel the largest integral of density times transmittance along a ray of a length from the origin on, over all
 /// that scatters: what an epipolar texture may have to hold of a sun. 0 of a channel that does not scatter.
 glm::dvec3 longestWay(const Medium& medium, const glm::dvec3& origin, double length);

@@ -142,9 +142,7 @@ bool meets(const ReachedVolume& light, const dvec3& begin, const dvec3& directio
 LightShare shareOf(const Light& light, const Camera& camera, const Medium& medium) {
   const double colour = std::max({light.colour[0], light.colour[1], light.colour[2]});
   if (light.kind == LightKind::Directional) {
-    dvec3 extinction = extinctionOf(medium, kEverywhere); // at the eye
-    for (int i = 0; i < static_cast<int>(medium.layers.size()); ++i)
-      extinction += densityOf(medium, i, cameraOrigin(camera)).at(dvec3(0)) * extinctionOf(medium, i);
+    const dvec3 extinction = extinctionAtEye(medium, camera);
     double sigma = kInfinity; // of the clearest channel that is dimmed
     for (int c = 0; c < 3; ++c)
       if (extinction[c] > 0) sigma = std::min(sigma, extinction[c]);

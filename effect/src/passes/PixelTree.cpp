@@ -28,7 +28,9 @@ Tables planLowRank(LightPlanner& light) {
   if (light.frame.settings.technique != Technique::LowRank) return {};
   auto table = optics::makeLowRank(light.frame, light.light, light.geometry);
   if (!table) {
-    light.skip("low rank", "the light in a plane through eye and light depends on more than two coordinates");
+    light.skip(
+        "low rank",
+        "light in a plane through eye and light depends on more than two coordinates, or no ray has an angle to it");
     return {};
   }
   light.extent.lowRankSets = table->sets;

@@ -82,8 +82,8 @@ bool takesSeveral(std::string_view fragment, const Values& values) {
 // Several views of one texture where that is seldom: the light's maps are copied into an array (plan/MapCopies.cpp).
 bool isSeldomAtlas(std::string_view fragment, const Values& values) {
   if (values["SHADOW_ARRAY"] != 0 || values["SHADOW_VIEWS"] != 2) return false;
-  return isMixture(values) || values["HEIGHT"] == kAnyLayers || values["LOW_RANK"] != 0 ||
-         values["COUNT_VISITS"] != 0 || values["TINT_SUMS"] != 0 || isOneOf(fragment, {"fixup", "tintGroups"});
+  return isMixture(values) || values["HEIGHT"] != kNoLayers || values["LOW_RANK"] != 0 || values["COUNT_VISITS"] != 0 ||
+         values["TINT_SUMS"] != 0 || isOneOf(fragment, {"fixup", "tintGroups"});
 }
 
 void chooseMaps(std::string_view fragment, Values values) {
@@ -109,7 +109,7 @@ gl::Definitions general(const std::string& fragment, gl::Definitions definitions
   if (values["HEIGHT"] == kOnlyLayer && values["LIGHT_KIND"] != 0) values.set("HEIGHT", kOneLayer);
   if (values["HEIGHT"] != kNoLayers && !hasProgramsForOneLayer(fragment, values)) values.set("HEIGHT", kAnyLayers);
   if (values["HEIGHT"] == kAnyLayers && !isOneOf(fragment, {"unwarp", "unwarpEdges"})) values.set("MONOCHROME", 0);
-  if (values["COUNT_VISITS"] != 0) { // which depend neither on the medium nor on smoke
+  if (values["COUNT_VISITS"] != 0) { // which depend neither on colours nor on smoke
     values.set("MONOCHROME", 1);
     values.set("CURVES", 0);
   }

@@ -18,10 +18,11 @@ gl::Definitions definitionsOf(const LightVariant& v) {
 
 LightVariant served(LightVariant variant) {
   const int kinds = (variant.bilinear ? 1 : 0) + (variant.glass ? 1 : 0) + (variant.curves ? 1 : 0);
+  if (variant.layers != kNoLayers && (variant.shadowViews == 0 || kinds > 0)) variant.layers = kAnyLayers;
   const bool isSunThroughGlass =
       variant.lightKind == 0 && !variant.bilinear && variant.layers == kNoLayers; // and smoke
-  if (variant.layers == kAnyLayers || variant.shadowViews == 0 || (kinds > 1 && !isSunThroughGlass))
-    variant.monochrome = false;
+  const bool isMixture = kinds > 1 && !isSunThroughGlass;
+  if (variant.layers == kAnyLayers || variant.shadowViews == 0 || isMixture) variant.monochrome = false;
   return variant;
 }
 

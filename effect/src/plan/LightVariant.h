@@ -31,7 +31,7 @@ struct LightVariant {
 gl::Definitions definitionsOf(const LightVariant& variant);
 
 /// The one whose programs draw a variant: grey media have programs of their own where they save most, with a light of
-/// one filter, glass or smoke, or a sun of glass and smoke.
+/// one filter, glass or smoke, or a sun of glass and smoke; media with one layer with a light of none of these.
 LightVariant served(LightVariant variant);
 
 /// Every variant that a frame can ask for in a context with dual-source blending, or without.

@@ -1,6 +1,7 @@
 #include "plan/MapCopies.h"
 
 #include "optics/Blocks.h"
+#include "optics/HeightFog.h"
 #include "optics/MapCopy.h"
 
 #include <algorithm>
@@ -11,13 +12,14 @@ namespace tyndall {
 namespace {
 
 // Several views of one texture are read as they are by all passes but the seldom ones (plan/General.cpp).
-bool isSeldomAtlas(const Settings& settings, const Light& light) {
+bool isSeldomAtlas(const Frame& frame, const Light& light) {
+  const Settings& settings = frame.settings;
   if (light.shadow.array || light.shadow.views.size() < 2) return false;
   const bool filters = settings.shadowFilter == ShadowFilter::Bilinear, glass = light.glass.colour != 0;
   const int kinds = (filters ? 1 : 0) + (glass ? 1 : 0) + (light.curves.texture != 0 ? 1 : 0);
   const bool spreads = settings.technique == Technique::Epipolar && std::isfinite(settings.spreadThreshold);
   const bool looksUp = settings.technique == Technique::LowRank || settings.debugView == DebugView::NodeVisits;
-  return kinds > 1 || spreads || (looksUp && (filters || glass));
+  return kinds > 1 || spreads || optics::isLayered(frame.medium) || (looksUp && (filters || glass));
 }
 
 // Programs for filtered glass know of no rectangle that begins elsewhere than a layer (glsl/lib/shadowMap.glsl).
@@ -28,10 +30,10 @@ bool isSeldomRectangle(const Settings& settings, const Light& light) {
                      [](const ShadowView& view) { return view.rectangle.x != 0 || view.rectangle.y != 0; });
 }
 
-bool isCopied(const Settings& settings, const Light& light) {
+bool isCopied(const Frame& frame, const Light& light) {
   const ShadowMap& map = light.shadow;
-  return map.cube.enabled || map.encoding != DepthEncoding::Window || isSeldomAtlas(settings, light) ||
-         isSeldomRectangle(settings, light);
+  return map.cube.enabled || map.encoding != DepthEncoding::Window || isSeldomAtlas(frame, light) ||
+         isSeldomRectangle(frame.settings, light);
 }
 
 int sourceOf(const ShadowMap& map) { return (map.cube.enabled ? 2 : 0) + (map.array ? 1 : 0); }
@@ -68,7 +70,7 @@ Frame withCubeViews(const Frame& frame) {
 
 void chooseCopies(Frame& frame, FrameTextures& textures) {
   for (std::size_t i = 0; i < frame.lights.size(); ++i)
-    if (frame.lights[i].shadow.texture != 0 && isCopied(frame.settings, frame.lights[i]))
+    if (frame.lights[i].shadow.texture != 0 && isCopied(frame, frame.lights[i]))
       copy(frame.lights[i], textures.shadows[i]);
 }
 

@@ -48,7 +48,8 @@ std::string drawVisibility(tyndall::Medium& medium) {
   }
   const bool isChanged = ImGui::SliderScalar("##visibility", ImGuiDataType_Double, &visibility, &low, &high, "%.4g m",
                                              ImGuiSliderFlags_Logarithmic);
-  tooltip("where 2 % of the contrast is left, in world units; scales all coefficients");
+  tooltip(
+      "where 2 % of the contrast is left, in world units, where the density of layers is 1; scales all coefficients");
   if (!isChanged) return {};
   medium = withVisibility(medium, visibility);
   return "visibility";

@@ -1,8 +1,10 @@
 // Media that thin out with height (Medium::layers): unshadowed light against adaptive quadrature, limits, and rules.
 #include "AirlightSweep.h"
+#include "FrameCases.h"
 #include "ShaftRig.h"
 #include "reference/Metrics.h"
 #include "support/Catch.h"
+#include "support/EffectRig.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,7 +65,7 @@ Medium twoLayers(const HeightLayer& first, const HeightLayer& second) {
   return medium;
 }
 
-// From centimetres to as good as none; the eye in a layer, far above it with a ground or without, far below where
+// Of scales from 1e-3 to as good as none; the eye in a layer, far above it with a ground or without, far below where
 // density is 1.
 std::vector<HeightLayer> layers() {
   return {{kHeight - 0.008, 1e-3},
@@ -163,24 +165,80 @@ TEST_CASE("exact through layers equals map-exact: every light, filter, glass, an
       }
 }
 
-TEST_CASE("every technique is as near to exact through layers as through an even medium") {
-  for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot}) {
-    tests::ShaftRig rig;
-    rig.addLight(shadowed(kind));
-    for (const Technique technique : {Technique::Tree, Technique::Epipolar, Technique::LowRank}) {
-      Medium even = shaftFog(true);
-      for (Constituent& c : even.constituents)
-        c.layer = -1;
-      rig.scene.frame.medium = even;
-      rig.changed();
-      const tests::ShaftError without = rig.error(rig.picture(technique));
-      for (const bool haze : {false, true}) {
-        rig.scene.frame.medium = shaftFog(haze);
+TEST_CASE(
+    "every technique is as near to exact through layers as through an even medium, filtered or not, grey or not") {
+  for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot})
+    for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear}) {
+      tests::ShaftRig rig;
+      rig.addLight(shadowed(kind));
+      rig.scene.frame.settings.shadowFilter = filter;
+      for (const Technique technique : {Technique::Tree, Technique::Epipolar, Technique::LowRank}) {
+        Medium even = shaftFog(true);
+        for (Constituent& c : even.constituents)
+          c.layer = -1;
+        rig.scene.frame.medium = even;
         rig.changed();
-        const tests::ShaftError with = rig.error(rig.picture(technique));
-        CAPTURE(static_cast<int>(kind), static_cast<int>(technique), haze, without.rRmse, with.displaced);
-        CHECK(with.rRmse <= std::max(1.25 * without.rRmse, with.displaced) + 2e-3);
+        const tests::ShaftError without = rig.error(rig.picture(technique));
+        Medium greyHaze = shaftFog(true);
+        greyHaze.constituents[1].scattering = {0.006F, 0.006F, 0.006F};
+        for (const Medium& medium : {shaftFog(false), greyHaze, shaftFog(true)}) {
+          rig.scene.frame.medium = medium;
+          rig.changed();
+          const tests::ShaftError with = rig.error(rig.picture(technique));
+          CAPTURE(static_cast<int>(kind), static_cast<int>(filter), static_cast<int>(technique),
+                  medium.constituents.size(), without.rRmse, with.displaced);
+          CHECK(with.rRmse <= std::max(1.25 * without.rRmse, with.displaced) + 2e-3);
+        }
       }
+    }
+}
+
+TEST_CASE("views side by side in one texture show through layers what those of an array do") {
+  // By how much of the light pictures differ, whose maps are the same but for the layout.
+  const auto apart = [](tests::FrameCase item) {
+    tests::Stage array(item);
+    item.layout = tests::Layout::Atlas;
+    tests::Stage atlas(item);
+    const std::vector<float> wanted = array.draw(tests::testEffect())[1], got = atlas.draw(tests::testEffect())[1];
+    double sum = 0, difference = 0;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      sum += static_cast<double>(wanted[i]);
+      difference += std::abs(static_cast<double>(got[i]) - static_cast<double>(wanted[i]));
+    }
+    REQUIRE(sum > 0);
+    return difference / sum;
+  };
+  for (const Technique technique : {Technique::Exact, Technique::Tree, Technique::Epipolar})
+    for (const bool filtered : {false, true}) {
+      tests::FrameCase item;
+      item.technique = technique;
+      item.lights = {LightKind::Point};
+      item.targets = {false, true, true};
+      item.bilinear = filtered;
+      const double even = apart(item);
+      item.fog = true;
+      CAPTURE(static_cast<int>(technique), filtered, even);
+      CHECK(apart(item) <= 1.5 * even + 1e-4);
+    }
+}
+
+TEST_CASE("sky below the eye of a layer without ground, without end, is as bright as extinction lets it be") {
+  for (const bool haze : {false, true}) {
+    tests::FrameRig rig(8, 8, std::vector<float>(64, 0.0F));
+    rig.frame.camera.viewFromWorld = tests::lookAt({0, 40, 0}, {0, 0, -30});
+    rig.frame.camera.clipFromView = tests::reversedInfinite(0.4, 1, 0.1);
+    rig.frame.camera.clipDepth = ClipDepth::ZeroToOne;
+    rig.frame.medium = shaftFog(haze);
+    rig.frame.medium.layers = {{0, 3}};
+    rig.frame.medium.constituents[0].scattering[2] = 0;
+    rig.frame.medium.farDistance = kInfinity;
+    for (const LightKind kind : {LightKind::Directional, LightKind::Point}) {
+      rig.frame.lights = {shadowed(kind)};
+      rig.frame.lights[0].position = {2, 41, -3};
+      const reference::ImageAnswer got = rig.render(), wanted = rig.reference();
+      CAPTURE(haze, static_cast<int>(kind));
+      CHECK(tests::isFiniteAndNonNegative(got.inscatter));
+      CHECK(tests::difference(got.inscatter, wanted.inscatter) <= 1e-4);
     }
   }
 }
