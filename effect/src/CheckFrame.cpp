@@ -132,6 +132,15 @@ Status checkMedium(const Medium& medium) {
   return {};
 }
 
+Status checkAmbient(const Ambient& ambient) {
+  if (!isNonNegative(ambient.radiance))
+    return invalid("ambient.radiance", textOf(ambient.radiance), "must be finite and >= 0");
+  for (std::size_t i = 0; i < ambient.harmonics.size(); ++i)
+    if (!isFinite(ambient.harmonics[i]))
+      return invalid("ambient.harmonics[" + std::to_string(i) + "]", textOf(ambient.harmonics[i]), "must be finite");
+  return {};
+}
+
 Status checkView(const Frame& frame) {
   const DebugView view = frame.settings.debugView;
   const Technique technique = frame.settings.technique;
@@ -228,6 +237,7 @@ Status checkValues(const Frame& frame) {
   for (std::size_t i = 0; i < frame.lights.size(); ++i)
     if (Status s = checkLight("lights[" + std::to_string(i) + "].", frame.lights[i]); !s) return s;
   if (Status s = checkMedium(frame.medium); !s) return s;
+  if (Status s = checkAmbient(frame.ambient); !s) return s;
   if (Status s = checkSettings(frame.settings); !s) return s;
   if (Status s = checkReuse(frame); !s) return s;
   if (Status s = checkView(frame); !s) return s;

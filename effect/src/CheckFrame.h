@@ -33,6 +33,7 @@ struct FrameTextures {
   int depthSamples = 1;
   float depthRounding = 0; ///< share of a distance by which the scene depth's format rounds it
   TargetTexture colour, inscatter, transmittance;
+  glm::ivec2 occlusion{0};     ///< texels of Ambient::occlusion, 0 without
   std::vector<Shadow> shadows; ///< one per light, 0 x 0 without a shadow map
 };
 

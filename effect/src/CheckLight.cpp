@@ -163,6 +163,8 @@ Status checkLight(const std::string& field, const Light& light) {
   if (light.kind < LightKind::Directional || light.kind > LightKind::Spot)
     return invalid(field + "kind", std::to_string(static_cast<int>(light.kind)), "must be one of the enumerators");
   if (!isNonNegative(light.colour)) return invalid(field + "colour", textOf(light.colour), "must be finite and >= 0");
+  if (!(light.scatteringScale >= 0 && std::isfinite(light.scatteringScale)))
+    return invalid(field + "scatteringScale", text(light.scatteringScale), "must be finite and >= 0");
   if (light.kind != LightKind::Point && (!isFinite(light.direction) || isZero(light.direction)))
     return invalid(field + "direction", textOf(light.direction), "must be finite and not 0");
   if (light.kind != LightKind::Directional) {

@@ -109,6 +109,9 @@ Status checkDistinct(const Frame& frame) {
     return invalid("output.inscatter", out.inscatter, "must differ from colour and output.transmittance");
   if (out.transmittance && out.transmittance == frame.colour && !mayShare)
     return invalid("output.transmittance", out.transmittance, "must differ from colour");
+  if (const Uint share = frame.ambient.occlusion.texture;
+      share && (share == frame.colour || share == out.inscatter || share == out.transmittance))
+    return invalid("ambient.occlusion.texture", share, "must differ from colour and output");
   for (std::size_t i = 0; i < frame.lights.size(); ++i)
     if (const Uint glass = frame.lights[i].glass.colour;
         glass && (glass == frame.colour || glass == out.inscatter || glass == out.transmittance))
@@ -128,6 +131,16 @@ Status checkCurves(const Functions& gl, const std::string& field, const Light& l
                    "has " + std::to_string(info.layers) + " layers: " + std::to_string(views) + " views of " +
                        std::to_string(light.curves.nodes) + " nodes need " + std::to_string(layers));
   size = info.width;
+  return {};
+}
+
+Status checkOcclusion(const Functions& gl, const Ambient& ambient, FrameTextures& textures) {
+  if (ambient.occlusion.texture == 0) return {};
+  TextureInfo info;
+  if (Status s = checkTexture(gl, "ambient.occlusion.texture", ambient.occlusion.texture, TEXTURE_2D, Use::Share, info);
+      !s)
+    return s;
+  textures.occlusion = {info.width, info.height};
   return {};
 }
 
@@ -211,6 +224,7 @@ Status checkTextures(const Functions& gl, const Frame& frame, FrameTextures& tex
   TextureInfo targets;
   if (Status s = checkTargets(gl, frame, textures, targets); !s) return s;
   if (Status s = checkDepth(gl, frame, targets, textures); !s) return s;
+  if (Status s = checkOcclusion(gl, frame.ambient, textures); !s) return s;
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     textures.shadows.emplace_back();
     const std::string field = "lights[" + std::to_string(i) + "].";

@@ -1,6 +1,7 @@
 #include "Plausible.h"
 
 #include "FieldText.h"
+#include "optics/Ambient.h"
 #include "optics/Blocks.h"
 #include "optics/HeightFog.h"
 #include "optics/Projections.h"
@@ -113,7 +114,7 @@ void checkMedium(const Frame& frame, Findings& findings) {
   const double most = std::max({scattering.x, scattering.y, scattering.z});
   const double least = std::min({extinction.x, extinction.y, extinction.z});
   if (most == 0) {
-    if (!frame.lights.empty())
+    if (!frame.lights.empty() || optics::isLit(frame.ambient))
       findings.warnings.emplace_back("Frame::medium.constituents scatter nothing: no light is added");
     return;
   }
@@ -137,6 +138,11 @@ void checkBrightness(const Frame& frame, Findings& findings) {
   const auto isBlack = [](const Light& light) { return light.colour == Rgb{0, 0, 0}; };
   if (!frame.lights.empty() && std::all_of(frame.lights.begin(), frame.lights.end(), isBlack))
     findings.warnings.emplace_back("Frame::lights: the colour of each is black: no light is added");
+  constexpr double kRounding = 1e-3; // of coefficients that were fitted
+  if (const double least = optics::leastAmbient(frame); least < -kRounding)
+    findings.warnings.push_back(lineOf("ambient.harmonics", "below 0 on some side",
+                                       "what is scattered comes to " + text(least) +
+                                           " of the most towards some directions, and is taken as 0"));
 }
 
 void checkMap(const Frame& frame, std::size_t index, Findings& findings) {

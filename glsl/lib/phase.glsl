@@ -12,13 +12,15 @@
 
 #include "lib/exponential.glsl"
 
-// T(s) of DESIGN 1.
 #if HEIGHT
 #include "lib/height.glsl"
-vec3 transmittanceTo(Ray ray, float s) { return vec3(exp(-depthTo(heightsAlong(ray), s))); }
+Spectrum opticalDepthTo(Ray ray, float s) { return depthTo(heightsAlong(ray), s); }
 #else
-vec3 transmittanceTo(Ray ray, float s) { return vec3(exp(-SPECTRUM(extinction) * s)); }
+Spectrum opticalDepthTo(Ray ray, float s) { return SPECTRUM(extinction) * s; }
 #endif
+
+// Of the picture behind: T(s) of DESIGN 1.
+vec3 transmittanceTo(Ray ray, float s) { return dimsBackground != 0 ? vec3(exp(-opticalDepthTo(ray, s))) : vec3(1.0); }
 
 // Sum over constituents of sigma_k p_k over the sum of sigma_k, 1/sr. Takes 1 - cos and 1 + cos of the scattering angle.
 Spectrum phaseTowardsEye(float oneMinusCos, float onePlusCos) {

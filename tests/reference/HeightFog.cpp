@@ -92,10 +92,18 @@ Rgb HeightFog::depth(double s) const {
 }
 
 Rgb HeightFog::scattering(double s, double cosTheta) const {
+  std::vector<Rgb> phases;
+  for (const tyndall::Constituent& c : medium_.constituents)
+    phases.emplace_back(phase(c.phase, c.g, cosTheta));
+  return scattering(s, phases);
+}
+
+Rgb HeightFog::scattering(double s, const std::vector<Rgb>& factors) const {
   Rgb sum(0);
-  for (const tyndall::Constituent& c : medium_.constituents) {
+  for (std::size_t k = 0; k < medium_.constituents.size(); ++k) {
+    const tyndall::Constituent& c = medium_.constituents[k];
     const double density = c.layer < 0 ? 1 : std::exp(-exponent(static_cast<std::size_t>(c.layer), ray_.at(s)));
-    sum += toRgb(c.scattering) * (density * phase(c.phase, c.g, cosTheta));
+    sum += toRgb(c.scattering) * density * factors[k];
   }
   return sum;
 }

@@ -25,6 +25,8 @@ public:
 
   /// Sum over constituents of sigma_k at s times the phase function, 1/(world unit sr).
   Rgb scattering(double s, double cosTheta) const;
+  /// The same with numbers in place of each constituent's phase function.
+  Rgb scattering(double s, const std::vector<Rgb>& factors) const;
 
   /// About how fast scattering and the light's way change at s, as a logarithm, 1/world unit.
   double rate(double s) const;

@@ -70,6 +70,10 @@ private:
     const double hit = rays_.distance(x, y, depth);
     const double end = std::isinf(hit) ? scene_.medium.farDistance : std::max(0.0, hit);
     PixelAnswer answer{Rgb(0), transmittance(scene_.medium, ray, end)};
+    if (!scene_.medium.dimsBackground) answer.transmittance = Rgb(1);
+    if (isLit(scene_.ambient))
+      answer.inscatter += ambientLight(scene_.medium, scene_.ambient, ray, end) *
+                          openShare(scene_.occlusion, (x + 0.5) / scene_.width, (y + 0.5) / scene_.height);
     for (std::size_t i = 0; i < lights_.size(); ++i) {
       const Airlight airlight(scene_.medium, scene_.lights[i], ray);
       answer.inscatter += lightOf(i, airlight, ray, end);

@@ -13,6 +13,7 @@
 // Depth directions are read off the matrices.
 #pragma once
 
+#include "Ambient.h"
 #include "Curves.h"
 #include "Ray.h"
 
@@ -36,6 +37,8 @@ struct MapScene {
   std::vector<ShadowImage> shadows;   ///< one a light, or none at all
   std::vector<CurveMap> curves;       ///< one a light, or none at all: in steps, not in closed form
   tyndall::Medium medium;
+  tyndall::Ambient ambient; ///< but for its texture:
+  Occlusion occlusion;
   tyndall::ShadowFilter filter = tyndall::ShadowFilter::Nearest;
   int width = 0;
   int height = 0;

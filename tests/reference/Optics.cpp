@@ -85,8 +85,8 @@ double spotFalloff(const tyndall::Light& light, double cosAngle) {
 }
 
 Airlight::Airlight(const tyndall::Medium& medium, const tyndall::Light& light, const Ray& ray)
-    : ray_(ray), light_(light), constituents_(medium.constituents), colour_(toRgb(light.colour)),
-      extinction_(extinction(medium)) {
+    : ray_(ray), light_(light), constituents_(medium.constituents),
+      colour_(toRgb(light.colour) * double(light.scatteringScale)), extinction_(extinction(medium)) {
   maxExtinction_ = std::max({extinction_.r, extinction_.g, extinction_.b});
   grey_ = extinction_.r == extinction_.g && extinction_.g == extinction_.b;
   // A channel without extinction scatters nothing, so the thinnest of the others says how far the ray matters.
@@ -105,6 +105,19 @@ Airlight::Airlight(const tyndall::Medium& medium, const tyndall::Light& light, c
   else
     prepareDirectional(light);
   std::sort(breaks_.begin(), breaks_.end());
+}
+
+Airlight::Airlight(const tyndall::Medium& medium, const std::vector<Rgb>& radiances, const Ray& ray)
+    : Airlight(medium, tyndall::Light{}, ray) {
+  radiances_ = radiances;
+  source_ = Rgb(0);
+  for (std::size_t k = 0; k < constituents_.size(); ++k)
+    source_ += toRgb(constituents_[k].scattering) * radiances[k];
+}
+
+Rgb Airlight::scatteringAt(double s) const {
+  if (!radiances_.empty()) return layers_->scattering(s, radiances_);
+  return colour_ * layers_->scattering(s, glm::dot(glm::normalize(toVec3(light_.direction)), -ray_.direction));
 }
 
 Rgb Airlight::phaseSum(double cosTheta) const {
@@ -148,10 +161,7 @@ Rgb Airlight::directionalPiece(double s0, double s1) const {
 
 Airlight::Node Airlight::directionalNode(double a, double width, double x) const {
   const double s = a + x * width;
-  if (layers_) {
-    const double cosTheta = glm::dot(glm::normalize(toVec3(light_.direction)), -ray_.direction);
-    return {s, colour_ * layers_->scattering(s, cosTheta) * glm::exp(-layers_->depth(s))};
-  }
+  if (layers_) return {s, scatteringAt(s) * glm::exp(-layers_->depth(s))};
   return {s, source_ * expExtinction(s + std::max(0.0, boundaryOffset_ + boundarySlope_ * s))};
 }
 
@@ -253,7 +263,7 @@ Airlight::Nodes Airlight::nodesFor(double variation) {
   return {5, kGauss5X, kGauss5W};
 }
 
-void Airlight::addAdaptive(const std::function<Rgb(double)>& f, double a, double b, Rgb& sum, int depth) {
+void addAdaptive(const std::function<Rgb(double)>& f, double a, double b, Rgb& sum, int depth) {
   const double middle = 0.5 * (a + b), half = 0.5 * (b - a);
   Rgb kronrod{0}, gauss{0};
   for (const KronrodNode& node : kKronrod15) {

@@ -23,6 +23,11 @@ Rgb transmittance(const tyndall::Medium& medium, const Ray& ray, double distance
 /// The cone falloff of KHR_lights_punctual in [0, 1]; a hard step when the two cones' cosines differ by less than 1e-6.
 double spotFalloff(const tyndall::Light& light, double cosAngle);
 
+constexpr int kDeepest = 40; ///< halvings
+
+/// Adds the integral of f over [a, b], to a relative 1e-10 of the sum, by Gauss-Kronrod and halving.
+void addAdaptive(const std::function<Rgb(double)>& f, double a, double b, Rgb& sum, int depth = kDeepest);
+
 /// The in-scattered radiance that a medium and a light send along one ray to its origin:
 ///     integral of  exp(-sigma_t s) [sum_k sigma_k p_k] E(s) ds.
 /// Directional light has a closed form. For point and spot light let t be the distance past the foot of the
@@ -33,6 +38,10 @@ double spotFalloff(const tyndall::Light& light, double cosAngle);
 class Airlight {
 public:
   Airlight(const tyndall::Medium& medium, const tyndall::Light& light, const Ray& ray);
+
+  /// Of light that each constituent has a radiance of its own of to scatter towards the ray's origin, as from all sides
+  /// (Ambient.h): a directional one, of which nothing is lost before the ray.
+  Airlight(const tyndall::Medium& medium, const std::vector<Rgb>& radiances, const Ray& ray);
 
   /// The only part of the ray that can contribute: inside range and cone, and before exp(-sigma_t s) underflows.
   /// Always finite.
@@ -63,7 +72,6 @@ private:
     double s;
     Rgb value; ///< integrand times ds/dw
   };
-  static constexpr int kDeepest = 40; ///< halvings
   struct Nodes {
     int count;
     const double* abscissas; ///< on [-1, 1]
@@ -75,6 +83,7 @@ private:
   void addConeCrossings(double cosCone);
   void clipToCone();
   Rgb phaseSum(double cosTheta) const;
+  Rgb scatteringAt(double s) const; ///< of layers, directional: times the phase function
   Rgb expExtinction(double distance) const;
 
   Rgb directionalPiece(double s0, double s1) const;
@@ -83,8 +92,6 @@ private:
   Panel panel(double s0, double s1) const;
   Node pointNode(const Panel& panel, double x) const;
   double panelVariation(const Panel& panel) const;
-  /// Adds the integral of f over [a, b], to a relative 1e-10 of the sum, by Gauss-Kronrod and halving.
-  static void addAdaptive(const std::function<Rgb(double)>& f, double a, double b, Rgb& sum, int depth);
   static Nodes nodesFor(double variation);
   /// Directional: how the light's path to the eye, from where it entered the medium, grows with s.
   double sunSlope(double s) const;
@@ -164,6 +171,7 @@ private:
   tyndall::Light light_;
   std::optional<HeightFog> layers_; ///< of a medium that has them
   std::vector<tyndall::Constituent> constituents_;
+  std::vector<Rgb> radiances_; ///< of each, in place of the light's; empty: as the light's phase functions have it
   Rgb colour_;
   Rgb extinction_;
   double maxExtinction_ = 0;

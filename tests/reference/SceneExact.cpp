@@ -1,5 +1,6 @@
 #include "SceneExact.h"
 
+#include "Ambient.h"
 #include "CameraRays.h"
 #include "LightSlice.h"
 #include "Optics.h"
@@ -189,6 +190,8 @@ PixelAnswer SceneExact::pixel(const SceneView& view, const CameraRays& rays, int
   const double hit = firstHit(ray, visible.begin, visible.end);
   const double end = std::isinf(hit) ? view.medium.farDistance : hit;
   PixelAnswer answer{Rgb(0), transmittance(view.medium, ray, end)};
+  if (!view.medium.dimsBackground) answer.transmittance = Rgb(1);
+  if (isLit(view.ambient)) answer.inscatter += ambientLight(view.medium, view.ambient, ray, end);
   for (const tyndall::Light& light : view.lights) {
     const Airlight airlight(view.medium, light, ray);
     const Interval reach = airlight.support();

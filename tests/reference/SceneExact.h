@@ -32,6 +32,7 @@ struct SceneView {
   tyndall::Camera camera;
   std::vector<tyndall::Light> lights; ///< shadow and glass maps are not looked at
   tyndall::Medium medium;
+  tyndall::Ambient ambient; ///< without its texture
   int width = 0;
   int height = 0;
 };

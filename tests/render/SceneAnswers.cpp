@@ -69,11 +69,12 @@ SceneAnswers renderScene(const render::Options& options) {
   for (const tyndall::Light& light : frame.lights)
     maps.shadows.push_back(readShadow(light, options.shadowSize));
   maps.medium = frame.medium;
+  maps.ambient = frame.ambient;
   maps.filter = frame.settings.shadowFilter;
   maps.width = options.width;
   maps.height = options.height;
   maps.depth = host::readDepth(frame.depth.texture, options.width, options.height);
-  answers.view = {frame.camera, frame.lights, frame.medium, options.width, options.height};
+  answers.view = {frame.camera, frame.lights, frame.medium, frame.ambient, options.width, options.height};
   answers.triangles = reference::trianglesOf(renderer.scene(), host::poseAt(renderer.scene(), 0));
   return answers;
 }

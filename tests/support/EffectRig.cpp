@@ -106,6 +106,7 @@ reference::ImageAnswer FrameRig::reference(const std::vector<reference::ShadowIm
   scene.lights = frame.lights;
   scene.shadows = shadows;
   scene.medium = frame.medium;
+  scene.ambient = frame.ambient;
   scene.filter = frame.settings.shadowFilter;
   scene.width = frame.viewport.width;
   scene.height = frame.viewport.height;

@@ -3,7 +3,8 @@
 // This header is the whole public interface. An engine creates one Effect per GL context, describes a frame and calls
 // render() once; the effect adds single-scattered light with volumetric shadows to the engine's colour texture.
 //
-//     out(v) = back(v) T(d) + sum over lights of  integral_0^d T(s) [sum_k sigma_k p_k] E V G ds,
+//     out(v) = back(v) T(d) + sum over lights of  integral_0^d T(s) [sum_k sigma_k p_k] E V G ds
+//                           + integral_0^d T(s) [sum_k sigma_k  integral p_k L_ambient] ds,
 //     T(s) = exp(-integral_0^s sigma_t)
 //
 // Conventions. World units are the engine's own: nothing depends on their scale. Matrices are column-major, column
@@ -219,6 +220,7 @@ struct Light {
   double innerConeAngle = 0; ///< spot: full intensity up to this half angle, 0 <= inner <= outer
   double outerConeAngle =
       0.7853981633974483; ///< spot: none beyond this half angle, 0 < outer <= pi/2. glTF's KHR_lights_punctual falloff
+  float scatteringScale = 1;   ///< all but 1 is unphysical: times what the medium scatters of it; finite and >= 0
   bool litOutsideViews = true; ///< visibility where no shadow view reaches
   /// Directional: share of a cascade's width, at each of its sides and at its far plane, over which it fades into the
   /// next one that reaches there; the last one does not fade. 0 to 0.5. 0: a seam
@@ -262,6 +264,29 @@ struct Medium {
   int absorptionLayer = -1;              ///< of layers, as Constituent::layer
   std::vector<HeightLayer> layers = {};  ///< at most 2
   Vec3 up = {0, 1, 0};                   ///< any length but 0
+  bool dimsBackground = true; ///< false is unphysical: the medium adds its light and dims nothing behind it, T(d) = 1;
+                              ///< its own light it dims as ever
+};
+
+/// What stands between a pixel's stretch of medium and the surroundings: the share of their radiance that it gets.
+struct AmbientOcclusion {
+  std::uint32_t texture = 0; ///< GL_TEXTURE_2D, R8, R16, R16F or R32F, level 0, of any size: all of it shows the
+                             ///< frame's viewport, bilinear. 0 to 1, beyond that clamped, NaN as 1. 0: nothing
+  std::uint64_t version = 0; ///< of what it holds, as SceneDepth::version, which Changes::Objects looks at, too
+};
+
+/// Light of the surroundings, as of a sky: it comes from all sides at once, and each constituent scatters it by its
+/// phase function. It is the radiance at every place of the medium: no shadow map blocks it, and what the medium takes
+/// on its way there is left out of it already. The closed form is that of a directional light without shadows.
+struct Ambient {
+  Rgb radiance = {0, 0, 0}; ///< from every side; finite and >= 0
+  /// Radiance besides, by the side that it comes from: the coefficients of nine real spherical harmonics, in the order
+  /// and with the factors of Ramamoorthi and Hanrahan 2001: for a unit vector in world space that points to where light
+  /// comes from, 0.282095, 0.488603 (y, z, x), 1.092548 (x y, y z), 0.315392 (3 z^2 - 1), 1.092548 x z,
+  /// 0.546274 (x^2 - y^2). Finite. Where the constituents that follow one layer, or none, would scatter less than
+  /// nothing towards the eye together, they scatter nothing.
+  std::array<Rgb, 9> harmonics = {};
+  AmbientOcclusion occlusion;
 };
 
 /// All but Exact need shadow views whose centre is the light itself, its direction or its position, and refuse others,
@@ -432,6 +457,7 @@ struct Frame {
   Camera camera;
   std::vector<Light> lights; ///< at most 16
   Medium medium;
+  Ambient ambient;
   Settings settings;
   Output output;
   Reuse reuse;

@@ -173,6 +173,7 @@ enum : Enum {
   RED = 0x1903,
   RGB = 0x1907,
   RG = 0x8227,
+  R16 = 0x822A,
   RG16 = 0x822C,
   RGBA16 = 0x805B,
   RG32F = 0x8230,

@@ -64,9 +64,9 @@ void Program::bindBlocks(const Functions& gl) const {
   for (std::size_t i = 0; i < kBlocks.size(); ++i)
     if (const Uint index = gl.GetUniformBlockIndex(name(), kBlocks[i]); index != INVALID_INDEX)
       gl.UniformBlockBinding(name(), index, static_cast<Uint>(i));
-  // A copy has no slices.
-  if (const Uint index = gl.GetUniformBlockIndex(name(), "CopyBlock"); index != INVALID_INDEX)
-    gl.UniformBlockBinding(name(), index, 2);
+  for (const char* withoutSlices : {"CopyBlock", "AmbientBlock"})
+    if (const Uint index = gl.GetUniformBlockIndex(name(), withoutSlices); index != INVALID_INDEX)
+      gl.UniformBlockBinding(name(), index, 2);
 }
 
 } // namespace tyndall::gl

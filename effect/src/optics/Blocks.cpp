@@ -180,6 +180,7 @@ blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
     block.phaseWeight[k] = glm::vec4(glm::vec3(shares[k] * norm), frame.medium.constituents[k].layer + 1);
   }
   setLayers(block, frame);
+  block.dimsBackground = frame.medium.dimsBackground ? 1 : 0;
   block.lightCeiling = sizes.lightCeiling;
   block.colourMax = sizes.colourMax;
   block.outputMax = sizes.outputMax;
@@ -273,7 +274,8 @@ blocks::LightBlock lightBlock(const Frame& frame, const Light& light, int shadow
   const glm::dvec3 direction =
       light.kind == LightKind::Point ? glm::dvec3(0, -1, 0) : directionOf(toGlm(light.direction));
   blocks::LightBlock block{};
-  block.lightColour = glm::min(glm::dvec3(toGlm(light.colour)) * scatteringOf(frame.medium), kBrightest);
+  const double scale = light.scatteringScale;
+  block.lightColour = glm::min(scale * glm::dvec3(toGlm(light.colour)) * scatteringOf(frame.medium), kBrightest);
   block.lightDirection = direction;
   if (light.kind != LightKind::Directional)
     block.lightPosition = glm::clamp(fromEye(toGlm(light.position), origin), -kBrightest, kBrightest);

@@ -140,7 +140,8 @@ bool meets(const ReachedVolume& light, const dvec3& begin, const dvec3& directio
 } // namespace
 
 LightShare shareOf(const Light& light, const Camera& camera, const Medium& medium) {
-  const double colour = std::max({light.colour[0], light.colour[1], light.colour[2]});
+  const double scale = light.scatteringScale;
+  const double colour = scale * std::max({light.colour[0], light.colour[1], light.colour[2]});
   if (light.kind == LightKind::Directional) {
     const dvec3 extinction = extinctionAtEye(medium, camera);
     double sigma = kInfinity; // of the clearest channel that is dimmed

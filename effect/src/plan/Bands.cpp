@@ -23,6 +23,9 @@ constexpr double kLayers[] = {1, 1.2, 2, 4}; // of a medium that thins out with 
 // (DebugView::NodeVisits).
 constexpr double kTreeSteps = 512;
 
+// Panels of a ray through layers (glsl/lib/heightSteps.glsl), more than most take, in steps.
+constexpr double kOpenSteps = 32;
+
 // Rasterisers shade squares of pixels together: bands are as high and wide as some of these, if they may be.
 constexpr int kBlock = 4;
 
@@ -36,6 +39,8 @@ double stepsOf(const PassRow& row, const RayPaths& paths) {
     return paths.drawnViews * across;
   case RayWalk::Row:
     return paths.drawnViews * (paths.tree ? std::min(nodes, kTreeSteps) : texels);
+  case RayWalk::Open:
+    return kOpenSteps;
   default:
     return 0;
   }

@@ -111,7 +111,7 @@ struct Draw {
   Stencil stencil;
   Counting counting;
   int firstVertex = 0, vertices = 3, instances = 1;
-  std::array<int, 3> blocks{}; ///< frame, light, epipolar (or copy): index of the block; 0: none
+  std::array<int, 3> blocks{}; ///< frame, light, epipolar (or copy, ambient): index of the block; 0: none
   // Once the program is built:
   gl::Uint program = 0;
   struct Reading {
@@ -135,8 +135,9 @@ struct Skip {
 
 using Step = std::variant<Upload, Clear, Copy, Draw, Skip>;
 
-inline constexpr std::size_t kLargestBlock = std::max(
-    {sizeof(blocks::FrameBlock), sizeof(blocks::LightBlock), sizeof(blocks::EpipolarBlock), sizeof(blocks::CopyBlock)});
+inline constexpr std::size_t kLargestBlock =
+    std::max({sizeof(blocks::FrameBlock), sizeof(blocks::LightBlock), sizeof(blocks::EpipolarBlock),
+              sizeof(blocks::CopyBlock), sizeof(blocks::AmbientBlock)});
 
 struct FramePlan {
   std::vector<Step> steps;

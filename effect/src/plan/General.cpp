@@ -52,8 +52,8 @@ bool isOfSunbeams(std::string_view fragment, const Values& values) {
 
 // Where the medium's layers are looked at: where light is integrated, and what is left of the picture behind.
 bool seesLayers(std::string_view fragment, const Values& values) {
-  return isOneOf(fragment,
-                 {"exact", "fixup", "march", "marchExtra", "pixelTree", "transmittance", "unwarp", "unwarpEdges"}) &&
+  return isOneOf(fragment, {"ambient", "exact", "fixup", "march", "marchExtra", "pixelTree", "transmittance", "unwarp",
+                            "unwarpEdges"}) &&
          values["LOW_RANK"] == 0 && values["SHARES"] == 0;
 }
 
@@ -105,9 +105,11 @@ void chooseMaps(std::string_view fragment, Values values) {
 gl::Definitions general(const std::string& fragment, gl::Definitions definitions) {
   Values values(definitions);
   if (!seesLayers(fragment, values)) values.set("HEIGHT", kNoLayers);
-  if (isOneOf(fragment, {"transmittance"})) values.set("MONOCHROME", 0);
+  if (isOneOf(fragment, {"ambient", "transmittance"})) values.set("MONOCHROME", 0);
   if (values["HEIGHT"] == kOnlyLayer && values["LIGHT_KIND"] != 0) values.set("HEIGHT", kOneLayer);
-  if (values["HEIGHT"] != kNoLayers && !hasProgramsForOneLayer(fragment, values)) values.set("HEIGHT", kAnyLayers);
+  const bool isClosedForm = values["HEIGHT"] == kOnlyLayer && isOneOf(fragment, {"ambient"});
+  if (values["HEIGHT"] != kNoLayers && !isClosedForm && !hasProgramsForOneLayer(fragment, values))
+    values.set("HEIGHT", kAnyLayers);
   if (values["HEIGHT"] == kAnyLayers && !isOneOf(fragment, {"unwarp", "unwarpEdges"})) values.set("MONOCHROME", 0);
   if (values["COUNT_VISITS"] != 0) { // which depend neither on colours nor on smoke
     values.set("MONOCHROME", 1);

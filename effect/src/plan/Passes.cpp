@@ -51,6 +51,9 @@ public:
   Row walksOwnLine() const { // past what the rows' trees skip
     return walksRows().with([](PassRow& r) { r.walk = RayWalk::OwnLine; });
   }
+  Row walksOpen() const {
+    return with([](PassRow& r) { r.walk = RayWalk::Open; });
+  }
   Row rays(int perFragment) const {
     return with([&](PassRow& r) { r.raysPerFragment = perFragment; });
   }
@@ -118,6 +121,12 @@ std::vector<PassRow> makeRows() {
           .readsIfThere({kDepthSideBySide, R::SceneDepthSamples}) // one of the two
           .into(Into::Destination)
           .joins(kSumOfLights),
+      Row(Pass::Ambient, "ambient", "passes/ambient.frag", S::Image)
+          .readsIfThere({kDepthSideBySide, R::SceneDepthSamples, R::Occlusion})
+          .walksOpen()
+          .into(Into::Destination)
+          .joins(kSumOfLights)
+          .when(isDirectional), // its light is constant along a ray, as a sun's
       Row(Pass::Composite, "composite", "passes/composite.frag")
           .reads({R::Inscatter, R::Transmittance})
           .into(Into::Colour)

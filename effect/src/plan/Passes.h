@@ -15,6 +15,7 @@ enum class Pass {
   PlainDepth,
   Exact,
   Transmittance,
+  Ambient,
   Composite,
   CopyColour,
   CompositeOfCopy,
@@ -133,6 +134,7 @@ enum class RayWalk {
   AllTexels, ///< along it, in every shadow view of the light
   Row,       ///< of its slice, by its tree, in the shadow views of the draw
   OwnLine,   ///< texels along it, but for those that a row's tree skips
+  Open,      ///< all of it at once: light is integrated as if no map blocked it
 };
 
 struct Read {

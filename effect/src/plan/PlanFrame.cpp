@@ -2,6 +2,7 @@
 
 #include "DebugViews.h"
 #include "SampleBudget.h"
+#include "optics/Ambient.h"
 #include "optics/Blocks.h"
 #include "optics/EngineDepth.h"
 #include "optics/HeightFog.h"
@@ -25,6 +26,7 @@ bool changesColour(const Frame& frame) { return optics::extinctionOf(frame.mediu
 // Why a light has nothing to add; empty if it has.
 std::string reasonToSkip(const Frame& frame, const Light& light, bool wantsInscatter, bool anyCamera) {
   if (light.colour == Rgb{0, 0, 0}) return "the light is black";
+  if (light.scatteringScale == 0) return "the light's scatteringScale is 0";
   if (optics::scatteringOf(frame.medium) == glm::dvec3(0)) return "the medium does not scatter";
   if (!wantsInscatter) return "only the transmittance is wanted";
   if (!anyCamera && optics::isOutOfView(light, optics::jittered(frame.camera, frame.viewport)))
@@ -32,13 +34,29 @@ std::string reasonToSkip(const Frame& frame, const Light& light, bool wantsInsca
   return {};
 }
 
-// True if the light may be capped though the sum of all is not: one of several adds more than its part of what the
-// formats hold, so that they are to be added up in a texture of our own first.
-bool sumIsCapped(const Frame& frame, float most, std::size_t lights) {
-  if (lights < 2 || most >= kLargestFloat) return false;
-  return std::any_of(frame.lights.begin(), frame.lights.end(), [&](const Light& light) {
-    return optics::brightestInscatter(frame, light) > static_cast<double>(most) / static_cast<double>(lights);
+// The same of the light of the surroundings, which most frames have none of.
+std::string reasonToSkipAmbient(const Frame& frame, bool wantsInscatter) {
+  if (!optics::isLit(frame.ambient)) return "no light comes from the surroundings";
+  if (optics::scatteringOf(frame.medium) == glm::dvec3(0)) return "the medium does not scatter";
+  return wantsInscatter ? "" : "only the transmittance is wanted";
+}
+
+// Parts of the inscatter that are drawn one after the other: lights, and the surroundings.
+std::size_t partsOf(const Frame& frame, bool anyCamera) {
+  const auto lights = std::count_if(frame.lights.begin(), frame.lights.end(), [&](const Light& light) {
+    return reasonToSkip(frame, light, true, anyCamera).empty();
   });
+  return static_cast<std::size_t>(lights) + (reasonToSkipAmbient(frame, true).empty() ? 1 : 0);
+}
+
+// True if the light may be capped though the sum of all is not: one of several parts adds more than its share of what
+// the formats hold, so that they are to be added up in a texture of our own first.
+bool sumIsCapped(const Frame& frame, float most, std::size_t parts) {
+  if (parts < 2 || most >= kLargestFloat) return false;
+  const double share = static_cast<double>(most) / static_cast<double>(parts);
+  return optics::brightestAmbient(frame) > share ||
+         std::any_of(frame.lights.begin(), frame.lights.end(),
+                     [&](const Light& light) { return optics::brightestInscatter(frame, light) > share; });
 }
 
 // Which programs its layers take.
@@ -70,7 +88,7 @@ std::string nameOf(const Frame& frame, std::size_t light) {
   return (usesSlices(frame) ? "light " : "exact light ") + std::to_string(light);
 }
 
-float partOf(float most, std::size_t lights) { return most / static_cast<float>(std::max<std::size_t>(lights, 1)); }
+float partOf(float most, std::size_t parts) { return most / static_cast<float>(std::max<std::size_t>(parts, 1)); }
 
 } // namespace
 
@@ -129,17 +147,14 @@ void FramePlanner::planInFull() {
 
 Destination FramePlanner::chooseDestination(bool changes) {
   const Output& output = frame_.output;
-  const auto lights =
-      static_cast<std::size_t>(std::count_if(frame_.lights.begin(), frame_.lights.end(), [&](const Light& light) {
-        return reasonToSkip(frame_, light, true, in_.ahead).empty();
-      }));
+  const std::size_t parts = partsOf(frame_, in_.ahead);
   const float most =
       output.inscatter ? in_.textures.inscatter.max : in_.textures.colour.max; // of where they are added up
-  const bool apart = in_.sumsApart.value_or(sumIsCapped(frame_, most, lights));
+  const bool apart = in_.sumsApart.value_or(sumIsCapped(frame_, most, parts));
   Destination to;
   to.colour = colour_.texture;
   to.engines = engines();
-  to.ceiling = partOf(most, lights);
+  to.ceiling = partOf(most, parts);
   const bool spreads = frame_.settings.technique == Technique::Epipolar &&
                        std::isfinite(frame_.settings.spreadThreshold); // several times the time: no programs for it
   const bool blends = passes_.variant.dualSource;
@@ -151,7 +166,7 @@ Destination FramePlanner::chooseDestination(bool changes) {
   to.copies = apart && output.inscatter != 0;
   if (!to.inscatter && (to.composite || to.copies)) {
     to.inscatter = passes_.textureOf(Resource::Inscatter);
-    to.ceiling = partOf(kLargestFloat, lights);
+    to.ceiling = partOf(kLargestFloat, parts);
   }
   if (!to.transmittance && to.composite) to.transmittance = passes_.textureOf(Resource::Transmittance);
   return to;
@@ -213,14 +228,34 @@ std::vector<DrawnLight> FramePlanner::lightsToDraw(const Frame& frame, const Des
   return lights;
 }
 
+// The light of the surroundings comes first, with the transmittance; the lights are added to it. False if there is
+// none.
+bool FramePlanner::planAmbient(const PassPlanner& planner) {
+  const Destination& to = planner.destination;
+  const std::string reason = reasonToSkipAmbient(frame_, to.direct() || to.inscatter != 0);
+  if (optics::isLit(frame_.ambient) && !reason.empty()) out_.plan.skip(rowOf(Pass::Ambient).name, reason);
+  if (!reason.empty()) return false;
+  PassPlanner passes = planner;
+  passes.firstLight = true;
+  passes.variant.layers = layersFor(frame_.medium, {});
+  passes.variant.composite = to.direct();
+  passes.variant.shadowViews = 1; // programs with fewer are those of any layers
+  passes.epipolarBlock = out_.plan.add(optics::ambientBlock(frame_, in_.textures.occlusion));
+  passes.board[Resource::Occlusion] = frame_.ambient.occlusion.texture;
+  passes.draw(Pass::Ambient);
+  return true;
+}
+
 void FramePlanner::planLights(const Frame& frame, const Destination& destination,
                               const std::vector<DrawnLight>& lights) {
   PassPlanner passes = passes_;
   passes.destination = destination;
+  const bool ambient = planAmbient(passes);
   Frame lit = frame; // for one light at a time
   for (const DrawnLight& drawn : lights) {
     lit.settings = drawn.settings;
-    passes.firstLight = &drawn == &lights.front();
+    const bool isFirst = &drawn == &lights.front();
+    passes.firstLight = isFirst && !ambient;
     LightPlanner light(passes, lit, drawn, in_.textures, in_.limits);
     light.copyMaps();
     if (!usesSlices(frame)) {
@@ -229,9 +264,9 @@ void FramePlanner::planLights(const Frame& frame, const Destination& destination
       continue;
     }
     light.makeSlices();
-    passes::epipolar::plan(light, passes.firstLight ? frame.settings.debugView : DebugView::Composite);
+    passes::epipolar::plan(light, isFirst ? frame.settings.debugView : DebugView::Composite);
   }
-  if (!lights.empty() && !in_.ahead) return;
+  if (ambient || (!lights.empty() && !in_.ahead)) return;
   passes.firstLight = true;
   passes.variant.composite = destination.direct();
   passes.draw(Pass::Transmittance);

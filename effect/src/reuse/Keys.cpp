@@ -76,6 +76,12 @@ bool same(const LightKey& a, const LightKey& b) {
          fieldsOf(a.variant) == fieldsOf(b.variant);
 }
 
+bool same(const AmbientKey& a, const AmbientKey& b) {
+  const AmbientOcclusion &now = a.occlusion, &last = b.occlusion;
+  return same(a.block, b.block) && now.texture == last.texture &&
+         (now.texture == 0 || isStated(now.version, last.version));
+}
+
 bool sameFrame(const FrameKey& a, const FrameKey& b) {
   return same(a.block, b.block) && fieldsOf(a.settings) == fieldsOf(b.settings) && a.drawn == b.drawn &&
          a.slicesBeyond == b.slicesBeyond;

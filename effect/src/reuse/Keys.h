@@ -22,6 +22,12 @@ struct MapContent {
   std::uint64_t version = 0;
 };
 
+/// What is added to each pixel by itself: light of the surroundings.
+struct AmbientKey {
+  blocks::AmbientBlock block{};
+  AmbientOcclusion occlusion;
+};
+
 DepthContent depthOf(const Frame& frame);
 MapContent mapsOf(const Light& light);
 
@@ -41,6 +47,7 @@ struct LightKey {
 struct FrameKey {
   blocks::FrameBlock block{}; ///< but for the jitter
   glm::vec2 jitter{0};
+  AmbientKey ambient;
   double slicesBeyond = 0; ///< pixels beyond the image
   Settings settings;
   std::vector<std::size_t> drawn; ///< indices of the lights
@@ -50,7 +57,8 @@ struct FrameKey {
 bool same(const LightKey& a, const LightKey& b);
 /// True if maps are copied in the same way, or not.
 bool sameCopies(const LightKey& a, const LightKey& b);
-/// But for the lights' own, and for the jitter.
+bool same(const AmbientKey& a, const AmbientKey& b);
+/// But for the lights' own, the surroundings' and the jitter.
 bool sameFrame(const FrameKey& a, const FrameKey& b);
 
 } // namespace tyndall

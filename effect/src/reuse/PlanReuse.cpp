@@ -1,3 +1,4 @@
+#include "optics/Ambient.h"
 #include "optics/Jitter.h"
 #include "passes/Unwarp.h"
 #include "plan/PlanFrame.h"
@@ -53,7 +54,7 @@ Destination FramePlanner::keptDestination() const {
   to.colour = colour_.texture;
   to.engines = engines();
   to.composite = frame_.colour != 0;
-  to.ceiling = kLargestFloat / static_cast<float>(std::max<std::size_t>(frame_.lights.size(), 1));
+  to.ceiling = kLargestFloat / static_cast<float>(frame_.lights.size() + 1);
   to.inscatter = to.transmittance = 1; // of our own: made once it is known what of them is kept
   return to;
 }
@@ -61,6 +62,7 @@ Destination FramePlanner::keptDestination() const {
 FrameKey FramePlanner::keyOf(const std::vector<DrawnLight>& drawn) const {
   FrameKey key{out_.plan.block<blocks::FrameBlock>(passes_.frameBlock),
                {},
+               {optics::ambientBlock(frame_, in_.textures.occlusion), frame_.ambient.occlusion},
                optics::slicesBeyond(frame_.camera),
                frame_.settings,
                {},
@@ -127,7 +129,11 @@ FramePlanner::Mask FramePlanner::planParts(const std::vector<DrawnLight>& drawn,
     drawMasked(Pass::KeepDepth, mask);
     next.picture.hasDepth = true;
   }
+  use(mask, passes_);
+  const bool ambient = planAmbient(passes_);
+  use({}, passes_);
   for (const auto& light : lights) {
+    light->firstLight = light == lights.front() && !ambient;
     use(mask, *light);
     passes::unwarp::plan(*light);
   }

@@ -43,7 +43,8 @@ RedrawPlan planRedraw(const KeptEye& eye, FrameKey key, const Frame& frame) {
   const bool sameDepth = detects ? eye.last && isStated(depthOf(frame), eye.last->depth) : frame.objects.empty();
   bool all = !eye.last || !sameFrame(key, eye.last->key) || (!detects && !eye.isFollowedBy(frame));
   all = all || (!sameDepth && (!inParts || !eye.last->hasDepth));
-  const bool moved = !all && key.jitter != eye.last->key.jitter; // every pixel, but no slice
+  // Every pixel, but no slice.
+  const bool pixels = !all && (key.jitter != eye.last->key.jitter || !same(key.ambient, eye.last->key.ambient));
   bool part = !sameDepth;
   for (std::size_t i = 0; i < key.drawn.size(); ++i) {
     plan.lights.push_back(planLight(eye, key, i, frame, !all));
@@ -52,7 +53,7 @@ RedrawPlan planRedraw(const KeptEye& eye, FrameKey key, const Frame& frame) {
     all = all || redraw == Redraw::All || (redraw == Redraw::Part && !inParts);
   }
   plan.mayReuse = eye.last.has_value();
-  const bool wholly = all || moved || (part && frame.depth.multisampled); // pixels are compared by one depth
+  const bool wholly = all || pixels || (part && frame.depth.multisampled); // pixels are compared by one depth
   plan.picture = wholly ? Redraw::All : part ? Redraw::Part : Redraw::Nothing;
   plan.key = std::move(key);
   return plan;

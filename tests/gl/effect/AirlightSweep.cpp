@@ -42,9 +42,10 @@ std::vector<double> truthOf(FrameRig& rig) { return rig.reference().inscatter.rg
 class Conditioning {
 public:
   Conditioning(FrameRig& rig, const std::vector<double>& truth) : rig_(rig), truth_(truth), moved_(truth.size(), 0) {
-    if (rig.frame.lights[0].kind == LightKind::Spot) addLight();
+    const bool isSpot = !rig.frame.lights.empty() && rig.frame.lights[0].kind == LightKind::Spot;
+    if (isSpot) addLight();
     if (!rig.frame.medium.layers.empty()) addLayers();
-    if (rig.frame.lights[0].kind == LightKind::Spot || !rig.frame.medium.layers.empty())
+    if (isSpot || !rig.frame.medium.layers.empty())
       add([](Frame& frame, double by) { frame.camera.clipFromView[14] *= 1 + by; }); // scales all distances
   }
   const std::vector<double>& moved() const { return moved_; }
@@ -113,7 +114,8 @@ double errorOf(const AirlightSweep& sweep) {
   rig.frame.camera.viewFromWorld = lookAt({kSweepEye[0], kSweepEye[1], kSweepEye[2]}, {1.3, 2.1, 0});
   rig.frame.camera.clipFromView = reversedInfinite(1.2, 1.7, kNear);
   rig.frame.camera.clipDepth = ClipDepth::ZeroToOne;
-  rig.frame.lights = {sweep.light};
+  rig.frame.ambient = sweep.ambient;
+  if (!reference::isLit(sweep.ambient)) rig.frame.lights = {sweep.light};
   std::vector<double> values, references, slack;
   const auto append = [](std::vector<double>& to, const std::vector<double>& from) {
     to.insert(to.end(), from.begin(), from.end());

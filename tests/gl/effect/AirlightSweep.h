@@ -12,6 +12,7 @@ inline constexpr tyndall::Vec3 kSweepEye = {1, 2, 3};
 struct AirlightSweep {
   tyndall::Light light;
   tyndall::Medium medium;
+  tyndall::Ambient ambient = {}; ///< if it is lit: in place of the light
 };
 
 /// A constituent with seven tenths of the extinction, absorption with the rest.

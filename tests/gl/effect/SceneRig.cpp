@@ -279,9 +279,11 @@ reference::ImageAnswer SceneRig::reference() const {
   scene.shadows = images_;
   scene.curves = curves;
   scene.medium = frame.medium;
+  scene.ambient = frame.ambient;
   scene.filter = frame.settings.shadowFilter;
   scene.width = frame.viewport.width;
   scene.height = frame.viewport.height;
+  scene.occlusion = occlusion;
   scene.samples = samples_;
   scene.depth = depth_;
   return reference::mapExact(scene);

@@ -3,6 +3,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/AgainstReference.cpp
   ${CMAKE_CURRENT_LIST_DIR}/AirlightSweep.cpp
   ${CMAKE_CURRENT_LIST_DIR}/AirlightTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/AmbientTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/BandsTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/BetweenDrawsTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/CascadeTest.cpp

@@ -1,0 +1,24 @@
+// What the medium scatters of the light of the surroundings towards the eye. Needs lib/airlight.glsl, for LIGHT_KIND 0 without a boundary.
+
+// Of the constituents that are the same everywhere, 0, or of those that follow a layer, 1 and 2: where density is 1, a unit of length.
+vec3 ambientOf(int group, vec3 d) {
+  int first = AMBIENT_TERMS * group;
+  float terms[AMBIENT_TERMS] = float[](1.0, d.y, d.z, d.x, d.x * d.y, d.y * d.z, 3.0 * d.z * d.z - 1.0, d.x * d.z, d.x * d.x - d.y * d.y);
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < AMBIENT_TERMS; ++i) sum += terms[i] * ambientHarmonics[first + i].rgb;
+  return max(sum, vec3(0.0));
+}
+
+Airlight ambientLightOf(Ray ray) {
+  Airlight light = airlightOf(ray);
+#if HEIGHT
+  light.phases.even = ambientOf(0, ray.direction);
+  light.phases.first = ambientOf(1, ray.direction);
+#if HEIGHT > 2
+  light.phases.second = ambientOf(2, ray.direction);
+#endif
+#else
+  light.phase = ambientOf(0, ray.direction);
+#endif
+  return light;
+}
