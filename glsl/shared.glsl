@@ -8,6 +8,7 @@
 #define MAX_CONSTITUENTS 4
 #define MAX_HEIGHT_LAYERS 2
 #define AMBIENT_TERMS 9 // spherical harmonics that tell light of the surroundings
+#define AMBIENT_ROWS 27 // so many of what is the same everywhere, and of each layer
 #define MAX_SHADOW_VIEWS 6
 #define EDGE_RAYS 3 // that are marched for samples at an edge of a multisampled depth, at most
 #define EPIPOLE_GAP 0.25 // pixels between an epipole in the image and where slices begin
@@ -58,7 +59,7 @@ UNIFORM_BLOCK(FrameBlock) {
 UNIFORM_BLOCK(AmbientBlock) {
   // What the constituents that are the same everywhere scatter of it towards the eye, along a unit of length, and then those that follow
   // each layer, where density is 1: nine coefficients each of 1, y, z, x, x y, y z, 3 z^2 - 1, x z, x^2 - y^2 of the ray's direction.
-  vec4 ambientHarmonics[AMBIENT_TERMS * (1 + MAX_HEIGHT_LAYERS)];
+  vec4 ambientHarmonics[AMBIENT_ROWS];
   ivec2 occlusionSize;                // of the texture; 0: there is none
   int ambientPadding0, ambientPadding1;
 };

@@ -18,7 +18,8 @@ using glm::vec4;
 
 // std140 adds no padding of its own: sizes are those of the rows, and what must begin a row does.
 static_assert(sizeof(FrameBlock) == 16 * (3 + 1 + 1 + 1 + 2 * MAX_CONSTITUENTS + 6 + 2 * MAX_HEIGHT_LAYERS + 1));
-static_assert(sizeof(AmbientBlock) == 16 * (AMBIENT_TERMS * (1 + MAX_HEIGHT_LAYERS) + 1));
+static_assert(sizeof(AmbientBlock) == 16 * (AMBIENT_ROWS + 1));
+static_assert(AMBIENT_ROWS == AMBIENT_TERMS * (1 + MAX_HEIGHT_LAYERS));
 static_assert(sizeof(MapView) == 16 * 9);
 static_assert(sizeof(LightBlock) == 16 * 7 + sizeof(MapView) * MAX_SHADOW_VIEWS);
 static_assert(sizeof(CopyBlock) == 16 * (3 + 1 + 3));

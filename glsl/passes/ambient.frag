@@ -39,6 +39,6 @@ void main() {
     transmittance += transmittanceTo(ray, end) / float(depthSampleCount);
     addAirlight(light, 0.0, min(end, visibleEnd), 1.0 / float(depthSampleCount), sum);
   }
-  outInscatter = vec4(min(openShare() * sum, vec3(lightCeiling)), 0.0);
+  outInscatter = vec4(openShare() * min(sum, vec3(lightCeiling)), 0.0);
   outTransmittance = vec4(transmittance, 1.0);
 }

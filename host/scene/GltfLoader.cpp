@@ -16,7 +16,7 @@ namespace host {
 
 namespace {
 
-/// Scene extras: {"tyndall": {"medium": {...}, "sky": [r, g, b]}}.
+/// Scene extras: {"tyndall": {"medium": {...}, "ambient": {...}, "sky": [r, g, b]}}.
 void readTyndallExtras(gltf::Document& document, Scene& scene) {
   const int shown = document.shownScene();
   if (shown < 0) return;
@@ -32,6 +32,8 @@ void readTyndallExtras(gltf::Document& document, Scene& scene) {
   for (const auto& [key, value] : tyndall.items()) {
     if (key == "medium") {
       scene.medium = parseMedium(value, inFile + ".medium");
+    } else if (key == "ambient") {
+      scene.ambient = parseAmbient(value, inFile + ".ambient");
     } else if (key == "sky") {
       const auto isRadiance = [](const nlohmann::json& v) {
         return v.is_number() && v.get<float>() >= 0 && std::isfinite(v.get<float>());

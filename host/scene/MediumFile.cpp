@@ -30,21 +30,24 @@ void requireObject(const json& value, const std::string& where, std::initializer
   }
 }
 
+enum class Sign { NotNegative, Any };
+
 /// Also refuses what only overflows as a float.
-float coefficient(const json& value, const std::string& where) {
-  if (!value.is_number()) refuse(where, "must be a number, 1/world unit");
+float coefficient(const json& value, Sign sign, const std::string& where) {
+  if (!value.is_number()) refuse(where, "must be a number");
   const double number = value.get<double>();
-  if (!(number >= 0 && number <= double(std::numeric_limits<float>::max()))) {
-    refuse(where, value.dump() + " must be finite and not negative");
+  const bool isFinite = std::abs(number) <= double(std::numeric_limits<float>::max());
+  if (!isFinite || (sign == Sign::NotNegative && number < 0)) {
+    refuse(where, value.dump() + " must be finite" + (sign == Sign::NotNegative ? " and not negative" : ""));
   }
   return static_cast<float>(number);
 }
 
-tyndall::Rgb parseRgb(const json& value, const std::string& where) {
+tyndall::Rgb parseRgb(const json& value, const std::string& where, Sign sign = Sign::NotNegative) {
   if (!value.is_array() || value.size() != 3) refuse(where, "must be 3 numbers, one for each of R, G, B");
   tyndall::Rgb rgb{};
   for (std::size_t c = 0; c < 3; ++c) {
-    rgb[c] = coefficient(value[c], where + "[" + std::to_string(c) + "]");
+    rgb[c] = coefficient(value[c], sign, where + "[" + std::to_string(c) + "]");
   }
   return rgb;
 }
@@ -128,7 +131,8 @@ tyndall::Constituent parseConstituent(const json& value, std::size_t layers, con
 } // namespace
 
 tyndall::Medium parseMedium(const json& value, const std::string& where) {
-  requireObject(value, where, {"constituents", "absorption", "absorptionLayer", "farDistance", "layers", "up"});
+  requireObject(value, where,
+                {"constituents", "absorption", "absorptionLayer", "farDistance", "layers", "up", "dimsBackground"});
   tyndall::Medium medium;
   parseLayers(value, medium, where);
   if (value.contains("constituents")) {
@@ -152,20 +156,50 @@ tyndall::Medium parseMedium(const json& value, const std::string& where) {
     }
     medium.farDistance = distance.get<double>();
   }
+  if (value.contains("dimsBackground")) {
+    if (!value["dimsBackground"].is_boolean()) refuse(where + ".dimsBackground", "must be true or false");
+    medium.dimsBackground = value["dimsBackground"].get<bool>();
+  }
   return medium;
 }
 
-tyndall::Medium loadMedium(const std::filesystem::path& file) {
+tyndall::Ambient parseAmbient(const json& value, const std::string& where) {
+  requireObject(value, where, {"radiance", "harmonics"});
+  tyndall::Ambient ambient;
+  if (value.contains("radiance")) ambient.radiance = parseRgb(value["radiance"], where + ".radiance");
+  if (!value.contains("harmonics")) return ambient;
+  const json& list = value["harmonics"];
+  if (!list.is_array() || list.size() > ambient.harmonics.size()) {
+    refuse(where + ".harmonics", "must be an array of at most " + std::to_string(ambient.harmonics.size()));
+  }
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    ambient.harmonics[i] = parseRgb(list[i], where + ".harmonics[" + std::to_string(i) + "]", Sign::Any);
+  }
+  return ambient;
+}
+
+namespace {
+
+json readJson(const std::filesystem::path& file, const std::string& name) {
   constexpr std::uint64_t kMaxBytes = 1 << 20;
   const std::vector<std::uint8_t> text = readFile(file, kMaxBytes);
-  const std::string name = printable(file.string());
-  json value;
   try {
-    value = parseJson<json>(textOf(text));
+    return parseJson<json>(textOf(text));
   } catch (const Error& error) {
     throw Error(name + ": is not JSON: " + error.what());
   }
-  return parseMedium(value, name + ": medium");
+}
+
+} // namespace
+
+tyndall::Medium loadMedium(const std::filesystem::path& file) {
+  const std::string name = printable(file.string());
+  return parseMedium(readJson(file, name), name + ": medium");
+}
+
+tyndall::Ambient loadAmbient(const std::filesystem::path& file) {
+  const std::string name = printable(file.string());
+  return parseAmbient(readJson(file, name), name + ": ambient");
 }
 
 } // namespace host

@@ -138,7 +138,8 @@ struct Scene {
   std::vector<SmokeEmitter> smoke;
   std::vector<AnimationChannel> animation;  ///< all animations of the file, played at once
   std::optional<tyndall::Medium> medium;    ///< extras.tyndall.medium of the file's scene
-  glm::vec3 skyRadiance{0.0F};              ///< extras.tyndall.sky: radiance of the sky and of ambient light
+  std::optional<tyndall::Ambient> ambient;  ///< extras.tyndall.ambient: light that the medium scatters
+  glm::vec3 skyRadiance{0.0F};              ///< extras.tyndall.sky: radiance of the sky, and what surfaces get of it
   std::vector<std::filesystem::path> files; ///< it was read from, and those it refers to, read or not
   std::vector<std::string> notes;           ///< what was ignored, clamped or made up, a line each
 };

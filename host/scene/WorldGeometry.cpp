@@ -151,6 +151,7 @@ Scene boxesOf(const Scene& scene) {
   boxes.smoke = scene.smoke;
   boxes.animation = scene.animation;
   boxes.medium = scene.medium;
+  boxes.ambient = scene.ambient;
   boxes.skyRadiance = scene.skyRadiance;
   for (const Mesh& mesh : scene.meshes) {
     boxes.meshes.push_back({mesh.name, {}});

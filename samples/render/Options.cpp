@@ -37,7 +37,7 @@ Shares
   --missing prints "3-7,12", say, and ends with 1, or prints nothing and ends with 0.
 States
   --state takes what the viewer saves: scene, camera, lights, medium, picture and all settings, as JSON; what is left out
-  is at its default. --lights and --medium take parts of it as they are there: '{"absorption": [0.01, 0.01, 0.01]}'.
+  is at its default. --lights, --medium and --ambient take parts of it as they are there: '{"absorption": [0.01, 0.01, 0.01]}'.
 Program cache
   Linked programs are kept in $XDG_CACHE_HOME/tyndall/programs, ~/.cache/tyndall/programs by default, at most 64 MiB:
   what was not used for the longest time goes. Where that folder cannot be written, none are kept.
@@ -165,6 +165,18 @@ void addLights(CLI::App& app, Options& options, Given& given) {
          },
          "the medium, instead of the scene's: a file, or a medium as in state files")
       ->type_name("M.json");
+  app.add_option_function<std::string>(
+         "--ambient",
+         [&](const std::string& text) {
+           if (text.front() != '{') {
+             options.ambientFile = text;
+             return;
+           }
+           const auto ambient = parsedPart("--ambient", text, settings::parseAmbient);
+           given.overrides.emplace_back([ambient](settings::State& state) { state.ambient = ambient; });
+         },
+         "light of the surroundings that the medium scatters, instead of the scene's: a file, or as in state files")
+      ->type_name("A.json");
 }
 
 void addState(CLI::App& app, Options& options, Given& given) {

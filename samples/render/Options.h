@@ -26,9 +26,10 @@ struct FrameRange {
 };
 
 struct Options : settings::State {
-  std::optional<Sun> sun;                          ///< in place of all lights
-  std::optional<std::filesystem::path> mediumFile; ///< in place of State::medium
-  std::optional<std::filesystem::path> stateFile;  ///< that the options began with
+  std::optional<Sun> sun;                           ///< in place of all lights
+  std::optional<std::filesystem::path> mediumFile;  ///< in place of State::medium
+  std::optional<std::filesystem::path> ambientFile; ///< in place of State::ambient
+  std::optional<std::filesystem::path> stateFile;   ///< that the options began with
   std::optional<FrameRange> frames; ///< none: frame 0, and one object in the statistics instead of a list
   std::optional<Share> share;       ///< none: all of the frames
   bool resume = false;              ///< whether frames whose files are whole stay as they are

@@ -9,6 +9,7 @@ namespace render {
 OutputNames::OutputNames(const Options& options) {
   taken_[host::identityOf(options.scene)] = "the scene";
   if (options.mediumFile) taken_[host::identityOf(*options.mediumFile)] = "the medium";
+  if (options.ambientFile) taken_[host::identityOf(*options.ambientFile)] = "the ambient light";
   if (options.stateFile) taken_[host::identityOf(*options.stateFile)] = "the state";
   for (const std::filesystem::path& pattern : options.out)
     for (const int frame : framesOf(options))

@@ -36,6 +36,7 @@ host::RenderTargetOptions sampledOptions(const Options& options) {
 settings::State stateOf(const Options& options) {
   settings::State state = options;
   if (options.mediumFile) state.medium = host::loadMedium(*options.mediumFile);
+  if (options.ambientFile) state.ambient = host::loadAmbient(*options.ambientFile);
   return state;
 }
 
@@ -88,7 +89,9 @@ FrameRenderer::FrameRenderer(const Options& options)
   effect_ = std::move(created.effect);
   drawer_ = std::make_unique<SceneDrawer>(std::move(scene), *context_, options_, notes_);
 
-  frame_.medium = drawer_->mediumOf(stateOf(options), notes_);
+  const settings::State state = stateOf(options);
+  frame_.medium = drawer_->mediumOf(state, notes_);
+  frame_.ambient = drawer_->ambientOf(state);
   frame_.viewport.width = surfaces_.width();
   frame_.viewport.height = surfaces_.height();
   frame_.colour = composite_.colour();
@@ -104,6 +107,7 @@ FrameRenderer::FrameRenderer(const Options& options)
 bool FrameRenderer::isKeptOut(const tyndall::Light& light) {
   tyndall::Frame frame = frame_;
   frame.lights = {light};
+  frame.ambient = {};
   frame.colour = 0;
   frame.output.transmittance = 0;
   frame.settings = tyndall::settingsOf(tyndall::Profile::High);

@@ -123,6 +123,10 @@ tyndall::Medium SceneDrawer::mediumOf(const settings::State& state, host::Notes&
   return state.medium ? *state.medium : host::mediumOf(scene_, host::boundsOf(scene_, host::poseAt(scene_, 0)), notes);
 }
 
+tyndall::Ambient SceneDrawer::ambientOf(const settings::State& state) const {
+  return state.ambient ? *state.ambient : scene_.ambient.value_or(tyndall::Ambient());
+}
+
 tyndall::Camera SceneDrawer::cameraOf(const host::Scene& scene, const settings::State& state,
                                       const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes) {
   const host::CameraOptions cameraOptions{state.reversedDepth, clipDepthOf(state)};

@@ -48,6 +48,9 @@ public:
   /// The state's medium, or the scene's.
   tyndall::Medium mediumOf(const settings::State& state, host::Notes& notes) const;
 
+  /// The state's ambient light, or the scene's; none if neither has any.
+  tyndall::Ambient ambientOf(const settings::State& state) const;
+
   /// Of the scene, or of boxes().
   static tyndall::Camera cameraOf(const host::Scene& scene, const settings::State& state,
                                   const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes);

@@ -102,6 +102,7 @@ std::string frameCode(const tyndall::Frame& frame) {
   for (std::size_t i = 0; i < frame.lights.size(); ++i)
     code += fmt::format("  frame.lights.push_back(chosenLight{}(textures));\n", i);
   addMedium(code, frame.medium);
+  addFields(code, "frame.ambient", ambientTable(), frame.ambient);
   addFields(code, "frame.settings", settingsTable(), frame.settings);
   addFields(code, "frame.reuse", reuseTable(), frame.reuse);
   return code + "  return frame;\n}\n";

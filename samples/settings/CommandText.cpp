@@ -56,6 +56,7 @@ std::string commandOf(const State& state) {
     });
   });
   if (state.medium) command += " --medium " + quoted(textOf(*state.medium));
+  if (state.ambient) command += " --ambient " + quoted(textOf(*state.ambient));
   if (state.lights) command += " --lights " + quoted(textOf(*state.lights));
   return command + " --out picture.png";
 }

@@ -3,6 +3,7 @@
 
 namespace settings {
 
+using tyndall::Ambient;
 using tyndall::Constituent;
 using tyndall::HeightLayer;
 using tyndall::Light;
@@ -54,6 +55,9 @@ std::vector<Setting<Light>> lightRows() {
           .in("rad"),
       number("outerConeAngle", &Light::outerConeAngle, above(0, kRightAngle), "spot: none beyond this half angle")
           .in("rad"),
+      number("scatteringScale", &Light::scatteringScale, from(0, kMostFloat),
+             "all but 1 is unphysical: times what the medium scatters of it")
+          .withSlider(0, 10),
       switchOf("litOutsideViews", &Light::litOutsideViews, "visibility where no shadow view reaches"),
       number("cascadeFade", &Light::cascadeFade, from(0, 0.5),
              "directional: share of a cascade's width over which it fades into the next"),
@@ -76,6 +80,8 @@ const Table<Medium>& mediumTable() {
           number("absorptionLayer", &Medium::absorptionLayer, from(-1, tyndall::kMaxHeightLayers - 1),
                  "the layer whose density absorption is multiplied by; -1: none"),
           vector("up", &Medium::up, Type::Direction, finite(), "along which the density of layers falls"),
+          switchOf("dimsBackground", &Medium::dimsBackground,
+                   "off is unphysical: it adds its light and dims nothing behind it"),
       }};
   return table;
 }
@@ -110,6 +116,50 @@ const Table<HeightLayer>& layerTable() {
   return table;
 }
 
+namespace {
+
+/// One of the coefficients.
+Setting<Ambient> harmonic(std::size_t i, const char* help) {
+  Setting<Ambient> setting;
+  setting.field = "harmonics[" + std::to_string(i) + "]";
+  setting.help = help;
+  setting.type = Type::Colour;
+  setting.rule = from(-kMostFloat, kMostFloat);
+  setting.isFloat = true;
+  setting.get = [i](const Ambient& ambient) {
+    const tyndall::Rgb& c = ambient.harmonics[i];
+    return Value(decimalOf(c[0]), decimalOf(c[1]), decimalOf(c[2]));
+  };
+  setting.set = [i](Ambient& ambient, const Value& value) {
+    for (int c = 0; c < 3; ++c)
+      ambient.harmonics[i][static_cast<std::size_t>(c)] = static_cast<float>(value[c]);
+  };
+  return setting;
+}
+
+} // namespace
+
+const Table<Ambient>& ambientTable() {
+  static const Table<Ambient> table = [] {
+    Table<Ambient> made{"Ambient",
+                        {vector("radiance", &Ambient::radiance, Type::Colour, from(0, kMostFloat),
+                                "of the surroundings, from every side")}};
+    constexpr const char* kOf[] = {"radiance besides, by its side: of 0.282095",
+                                   "of 0.488603 y",
+                                   "of 0.488603 z",
+                                   "of 0.488603 x",
+                                   "of 1.092548 x y",
+                                   "of 1.092548 y z",
+                                   "of 0.315392 (3 z^2 - 1)",
+                                   "of 1.092548 x z",
+                                   "of 0.546274 (x^2 - y^2)"};
+    for (std::size_t i = 0; i < std::size(kOf); ++i)
+      made.rows.push_back(harmonic(i, kOf[i]));
+    return made;
+  }();
+  return table;
+}
+
 const Table<StateLight>& lightTable() {
   static const Table<StateLight> table = [] {
     Table<StateLight> made{"Light",
@@ -138,12 +188,15 @@ const std::vector<Left>& leftToEngines() {
       {"Frame.camera", "matrices, of a state's camera"},
       {"Frame.lights", "a list of lightTable()"},
       {"Frame.medium", "mediumTable()"},
+      {"Frame.ambient", "ambientTable()"},
       {"Frame.settings", "settingsTable()"},
       {"Frame.output", texture},
       {"Frame.reuse", "reuseTable()"},
       {"Frame.objects", "what the engine moved"},
       {"Medium.constituents", "a list of constituentTable()"},
       {"Medium.layers", "a list of layerTable()"},
+      {"Ambient.harmonics", "each is a row"},
+      {"Ambient.occlusion", texture},
       {"Light.boundary", "its fields are rows"},
       {"Light.shadow", texture},
       {"Light.glass", texture},

@@ -68,6 +68,7 @@ std::string breachIn(const State& state) {
   });
   if (breach.empty() && state.lookAt) breach = breachIn("camera", lookAtTable(), *state.lookAt);
   if (breach.empty() && state.medium) breach = breachIn(*state.medium);
+  if (breach.empty() && state.ambient) breach = breachIn("ambient", ambientTable(), *state.ambient);
   for (std::size_t i = 0; state.lights && i < state.lights->size() && breach.empty(); ++i)
     breach = breachIn(fmt::format("lights[{}]", i), lightTable(), (*state.lights)[i]);
   if (breach.empty() && state.compared)

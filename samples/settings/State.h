@@ -44,6 +44,7 @@ struct State {
   std::optional<LookAt> lookAt;                  ///< in place of the scene's cameras
   std::optional<std::vector<StateLight>> lights; ///< none: the scene's
   std::optional<tyndall::Medium> medium;         ///< none: the scene's
+  std::optional<tyndall::Ambient> ambient;       ///< none: the scene's
   double seconds = 0;                            ///< of the animation
   int width = 1280;
   int height = 720;

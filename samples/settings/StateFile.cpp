@@ -7,6 +7,7 @@
 #include <scene/Error.h>
 #include <scene/FileIo.h>
 #include <scene/Json.h>
+#include <scene/MediumFile.h>
 
 namespace settings {
 
@@ -30,6 +31,21 @@ Json jsonOf(const tyndall::Medium& medium) {
     json["layers"].push_back(jsonOf(layerTable(), layer));
   return json;
 }
+
+/// As files of scenes have it (scene/MediumFile.h).
+Json jsonOf(const tyndall::Ambient& ambient) {
+  Json json = {{"radiance", Json::array()}, {"harmonics", Json::array()}};
+  for (const Setting<tyndall::Ambient>& row : ambientTable().rows) {
+    const Json value = jsonOf(row, row.get(ambient));
+    if (row.field == "radiance")
+      json["radiance"] = value;
+    else
+      json["harmonics"].push_back(value);
+  }
+  return json;
+}
+
+tyndall::Ambient ambientOf(const Json& json, const std::string& where) { return host::parseAmbient(json, where); }
 
 Json jsonOf(const std::vector<StateLight>& lights) {
   Json json = Json::array();
@@ -141,7 +157,8 @@ void requireVersion(const Json& json, const std::string& where) {
 }
 
 void requireKnown(const Json& json, const std::string& where) {
-  std::vector<std::string> known = {"version", "scene", "camera", "profile", "medium", "lights", "compared", "path"};
+  std::vector<std::string> known = {"version", "scene",  "camera",   "profile", "medium",
+                                    "ambient", "lights", "compared", "path"};
   State state;
   visitTables(state, [&](const char* name, const auto&, const auto&) { known.emplace_back(name); });
   for (const auto& member : json.items())
@@ -171,6 +188,8 @@ State parseState(const std::string& text, const std::string& where, const std::f
     if (json.contains(name)) readInto(table, part, json[name], prefix + name);
   });
   if (json.contains("medium") && !json["medium"].is_null()) state.medium = mediumOf(json["medium"], prefix + "medium");
+  if (json.contains("ambient") && !json["ambient"].is_null())
+    state.ambient = ambientOf(json["ambient"], prefix + "ambient");
   if (json.contains("lights") && !json["lights"].is_null()) state.lights = lightsOf(json["lights"], prefix + "lights");
   if (json.contains("compared") && !json["compared"].is_null())
     state.compared = comparedOf(json["compared"], prefix + "compared");
@@ -190,6 +209,7 @@ std::string textOf(const State& state, const std::filesystem::path& folder) {
   json["profile"] = nameOf(state.profile);
   visitTables(state, [&](const char* name, const auto& part, const auto& table) { json[name] = jsonOf(table, part); });
   json["medium"] = state.medium ? jsonOf(*state.medium) : Json(nullptr);
+  json["ambient"] = state.ambient ? jsonOf(*state.ambient) : Json(nullptr);
   json["lights"] = state.lights ? jsonOf(*state.lights) : Json(nullptr);
   json["compared"] = state.compared ? jsonOf(*state.compared) : Json(nullptr);
   json["path"] = jsonOf(state.path);
@@ -206,6 +226,10 @@ void saveState(const std::filesystem::path& file, const State& state) {
   host::writeText(file, textOf(state, file.parent_path()));
 }
 
+tyndall::Ambient parseAmbient(const std::string& text, const std::string& where) {
+  return ambientOf(parseJson(text, where), where);
+}
+
 tyndall::Medium parseMedium(const std::string& text, const std::string& where) {
   return mediumOf(parseJson(text, where), where);
 }
@@ -218,6 +242,8 @@ std::vector<StateLight> parseLights(const std::string& text, const std::string& 
   if (!contradiction.empty()) throw host::Error(where + ": " + contradiction);
   return lights;
 }
+
+std::string textOf(const tyndall::Ambient& ambient) { return shown(jsonOf(ambient)); }
 
 std::string textOf(const tyndall::Medium& medium) { return shown(jsonOf(medium)); }
 

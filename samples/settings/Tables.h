@@ -16,6 +16,7 @@ const Table<tyndall::Tuning>& tuningTable();
 const Table<tyndall::Medium>& mediumTable(); ///< all but constituents and layers
 const Table<tyndall::Constituent>& constituentTable();
 const Table<tyndall::HeightLayer>& layerTable();
+const Table<tyndall::Ambient>& ambientTable();
 const Table<StateLight>& lightTable(); ///< all of a tyndall::Light that is a person's to set, and what StateLight adds
 const Table<LookAt>& lookAtTable();
 const Table<State>& pictureTable();

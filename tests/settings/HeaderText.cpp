@@ -70,6 +70,9 @@ std::set<std::string> knownFields() {
   addRows(known, "Medium", settings::mediumTable());
   addRows(known, "Constituent", settings::constituentTable());
   addRows(known, "HeightLayer", settings::layerTable());
+  addRows(known, "Ambient", settings::ambientTable());
+  for (int i = 0; i < 9; ++i)
+    known.erase("Ambient.harmonics[" + std::to_string(i) + "]"); // parts of one field
   addRows(known, "Light", settings::lightTable());
   addRows(known, "MediumBoundary", settings::lightTable(), "boundary.");
   known.erase("Light.on"); // which StateLight adds
@@ -93,7 +96,7 @@ std::vector<std::string> unknownFields(const std::string& header) {
   const std::set<std::string> known = knownFields();
   std::set<std::string> declared;
   for (const char* name : {"Frame", "Config", "Settings", "Reuse", "Tuning", "Medium", "Constituent", "HeightLayer",
-                           "Light", "MediumBoundary"})
+                           "Ambient", "Light", "MediumBoundary"})
     for (const std::string& field : fieldsOf(header, name))
       declared.insert(std::string(name) + "." + field);
   std::vector<std::string> unknown;

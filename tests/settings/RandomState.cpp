@@ -71,6 +71,10 @@ void randomiseScene(settings::State& state, std::mt19937& random) {
     state.medium->absorptionLayer = std::min(state.medium->absorptionLayer, last);
   }
   if (below(2, random) == 0) {
+    state.ambient.emplace();
+    randomise(*state.ambient, settings::ambientTable(), random);
+  }
+  if (below(2, random) == 0) {
     state.lights.emplace(static_cast<std::size_t>(below(tyndall::kMaxLights + 1, random)));
     for (settings::StateLight& light : *state.lights) {
       randomise(light, settings::lightTable(), random);
@@ -98,6 +102,8 @@ void compareScenes(std::vector<std::string>& found, const settings::State& a, co
   if (!haveOneLength(a.lights, b.lights)) return found.emplace_back("lights"), void();
   for (std::size_t i = 0; a.lights && i < a.lights->size(); ++i)
     compare(found, fmt::format("lights[{}]", i), settings::lightTable(), (*a.lights)[i], (*b.lights)[i]);
+  if (a.ambient.has_value() != b.ambient.has_value()) found.emplace_back("ambient");
+  if (a.ambient && b.ambient) compare(found, "ambient", settings::ambientTable(), *a.ambient, *b.ambient);
   if (a.medium.has_value() != b.medium.has_value()) return found.emplace_back("medium"), void();
   if (!a.medium) return;
   compare(found, "medium", settings::mediumTable(), *a.medium, *b.medium);

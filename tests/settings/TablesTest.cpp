@@ -108,6 +108,7 @@ TEST_CASE("settings may be what the effect allows, and nothing else") {
   checkRanges(settings::layerTable(), "medium.layers[1].", frame,
               [](tyndall::Frame& f) -> auto& { return f.medium.layers[1]; });
   checkRanges(settings::mediumTable(), "medium.", frame, [](tyndall::Frame& f) -> auto& { return f.medium; });
+  checkRanges(settings::ambientTable(), "ambient.", frame, [](tyndall::Frame& f) -> auto& { return f.ambient; });
   frame.medium.constituents.resize(1);
   checkRanges(settings::constituentTable(), "medium.constituents[0].", frame,
               [](tyndall::Frame& f) -> auto& { return f.medium.constituents[0]; });
@@ -150,6 +151,7 @@ TEST_CASE("every setting has a name of its own, a line of help, and a default th
   checkTexts(settings::mediumTable(), options);
   checkTexts(settings::constituentTable(), options);
   checkTexts(settings::layerTable(), options);
+  checkTexts(settings::ambientTable(), options);
   checkTexts(settings::lightTable(), options);
   checkTexts(settings::lookAtTable(), options);
   checkTexts(settings::pictureTable(), options);

@@ -14,7 +14,7 @@ namespace {
 using glm::dvec3;
 
 constexpr std::size_t kTerms = AMBIENT_TERMS;
-constexpr double kBrightest = 3e38; // float32 holds it
+constexpr double kBrightest = 1e37; // float32 holds the sum of so many terms
 // Of the harmonics, in the order of Ambient::harmonics, which is that of the terms of AmbientBlock.
 constexpr std::array<double, kTerms> kFactors = {0.28209479177387814, 0.4886025119029199, 0.4886025119029199,
                                                  0.4886025119029199,  1.0925484305920792, 1.0925484305920792,

@@ -107,6 +107,9 @@ gl::Definitions general(const std::string& fragment, gl::Definitions definitions
   if (!seesLayers(fragment, values)) values.set("HEIGHT", kNoLayers);
   if (isOneOf(fragment, {"ambient", "transmittance"})) values.set("MONOCHROME", 0);
   if (values["HEIGHT"] == kOnlyLayer && values["LIGHT_KIND"] != 0) values.set("HEIGHT", kOneLayer);
+  if (isOneOf(fragment, {"ambient"})) // which no map blocks
+    for (const char* name : {"SHADOW_VIEWS", "SHADOW_ARRAY", "FILTER_BILINEAR", "GLASS", "CURVES"})
+      values.set(name, 0);
   const bool isClosedForm = values["HEIGHT"] == kOnlyLayer && isOneOf(fragment, {"ambient"});
   if (values["HEIGHT"] != kNoLayers && !isClosedForm && !hasProgramsForOneLayer(fragment, values))
     values.set("HEIGHT", kAnyLayers);

@@ -137,6 +137,7 @@ void Viewer::takeScene(SceneLoader::Result result) {
       state.lookAt.reset();
       state.lights.reset();
       state.medium.reset();
+      state.ambient.reset();
       state.path.clear();
       state.seconds = 0;
     }

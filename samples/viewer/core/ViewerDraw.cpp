@@ -142,6 +142,7 @@ void Viewer::drawScene(const settings::State& state, bool isCoarse) {
   frame_.reuse = drawn.reuse;
   frame_.reuse.frame = number;
   frame_.medium = state.medium ? *state.medium : sceneMedium_;
+  frame_.ambient = drawer_->ambientOf(state);
   render::Moment moment;
   moment.seconds = state.seconds;
   moment.isCoarse = isCoarse;

@@ -109,10 +109,30 @@ std::string drawLayers(tyndall::Medium& medium) {
   return edited;
 }
 
-} // namespace
+// The coefficients are for those who have a sky to take them from.
+void drawAmbient(Viewer& viewer) {
+  settings::State state = viewer.state();
+  if (heading("Ambient light", !state.ambient)) {
+    state.ambient.reset();
+    return viewer.edit("reset ambient", state);
+  }
+  const host::Scene* scene = viewer.scene();
+  tyndall::Ambient ambient = state.ambient.value_or(scene && scene->ambient ? *scene->ambient : tyndall::Ambient());
+  settings::Table<tyndall::Ambient> radiance = settings::ambientTable(), harmonics = radiance;
+  radiance.rows.erase(radiance.rows.begin() + 1, radiance.rows.end());
+  harmonics.rows.erase(harmonics.rows.begin());
+  std::string edited;
+  editRows(radiance, ambient, tyndall::Ambient(), edited);
+  if (ImGui::TreeNode("by its side: spherical harmonics")) {
+    editRows(harmonics, ambient, tyndall::Ambient(), edited);
+    ImGui::TreePop();
+  }
+  if (edited.empty()) return;
+  state.ambient = ambient;
+  viewer.edit("ambient." + edited, state);
+}
 
-void drawMediumPanel(Session& session) {
-  Viewer& viewer = session.viewer;
+void drawMedium(Viewer& viewer) {
   settings::State state = viewer.state();
   if (heading("Medium", !state.medium)) {
     state.medium.reset();
@@ -143,6 +163,13 @@ void drawMediumPanel(Session& session) {
   if (edited.empty()) return;
   state.medium = medium;
   viewer.edit("medium." + edited, state);
+}
+
+} // namespace
+
+void drawMediumPanel(Session& session) {
+  drawMedium(session.viewer);
+  drawAmbient(session.viewer);
 }
 
 } // namespace viewer

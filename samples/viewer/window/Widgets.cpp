@@ -100,7 +100,7 @@ bool editThree(const Row& row, Value& value) {
   const double size = std::max({std::abs(value[0]), std::abs(value[1]), std::abs(value[2])});
   const bool isColour = row.type == Type::Colour;
   if (isColour) ImGui::SetNextItemWidth(-ImGui::GetFrameHeight() - ImGui::GetStyle().ItemInnerSpacing.x);
-  const double least = 0, most = row.rule.high;
+  const double least = row.rule.low, most = row.rule.high;
   const bool isChanged = ImGui::DragScalarN("##value", ImGuiDataType_Double, value.numbers.data(), 3,
                                             static_cast<float>(0.01 * std::max(size, 0.01)),
                                             isColour ? &least : nullptr, isColour ? &most : nullptr, "%.3g");

@@ -89,6 +89,11 @@ void addInputs(std::vector<FrameCase>& all) {
     all.back().lights = {kLamp, kSpot};
     all.back().targets = kAll;
   }
+  all.push_back(make("exact, ambient light", Technique::Exact));
+  all.back().ambient = true;
+  all.push_back(
+      make("epipolar, ambient light, height fog, two lights, all targets", Technique::Epipolar, kAll, {kSun, kSpot}));
+  all.back().ambient = all.back().fog = true;
   FrameCase bright = make("epipolar, sum over what colour holds", Technique::Epipolar, kAll, {kSun, kSpot});
   bright.bright = true;
   all.push_back(bright);
@@ -327,6 +332,12 @@ Stage::Stage(const FrameCase& frameCase, int width, int height, RigContext conte
   if (case_.fog) {
     frame.medium.layers = {{0, 2, -1}};
     frame.medium.constituents.front().layer = 0;
+  }
+  if (case_.ambient) {
+    frame.ambient.radiance = {0.2F, 0.3F, 0.4F};
+    frame.ambient.harmonics[1] = {0.1F, 0.1F, 0.1F};
+    occlusion_ = floatTexture(GL_R32F, 3, 2, {0, 0.25F, 1, 0.75F, 0.5F, 1});
+    frame.ambient.occlusion = {occlusion_.name(), 1};
   }
   if (case_.spread) settings.spreadThreshold = 0.02F;
   if (case_.chosen) settings.errorTarget = 0.02F;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kSize = tests::RefusalRig::kSize, kShadowSize = tests::RefusalRig::kShadowSize;
 
-enum class Use { Target, Depth, Map, Tint };
+enum class Use { Target, Depth, Map, Tint, Share };
 
 // A texture field of a frame and what it holds.
 struct Slot {
@@ -20,7 +20,7 @@ struct Slot {
   std::function<std::uint32_t&(Frame&)> name;
   Use use;
   int layers;            // 0: GL_TEXTURE_2D
-  bool setsSize = false; // other textures follow its size
+  bool setsSize = false; // other textures follow its size, or none has to
   int size() const { return field.rfind("lights", 0) == 0 ? kShadowSize : kSize; }
 };
 
@@ -39,10 +39,15 @@ const std::vector<Slot> kSlots = {
      true},
     {"lights[2].glass.colour", [](Frame& f) -> std::uint32_t& { return f.lights[2].glass.colour; }, Use::Tint, 0},
     {"lights[2].glass.depth", [](Frame& f) -> std::uint32_t& { return f.lights[2].glass.depth; }, Use::Map, 0},
+    {"ambient.occlusion.texture", [](Frame& f) -> std::uint32_t& { return f.ambient.occlusion.texture; }, Use::Share, 0,
+     true},
 };
 
 GLenum goodFormat(Use use) {
-  return use == Use::Target ? GL_RGBA16F : use == Use::Tint ? GL_RGBA8 : GL_DEPTH_COMPONENT24;
+  return use == Use::Target  ? GL_RGBA16F
+         : use == Use::Tint  ? GL_RGBA8
+         : use == Use::Share ? GL_R8
+                             : GL_DEPTH_COMPONENT24;
 }
 
 host::GlTexture make(int layers, GLenum format, int width, int height) {
@@ -62,6 +67,7 @@ const char* formatRule(Use use) {
   return use == Use::Target  ? "must have a float colour format"
          : use == Use::Depth ? "must have a depth format or R32F"
          : use == Use::Map   ? "must have a depth format, R16F, R32F or RG32F"
+         : use == Use::Share ? "must have the format R8, R16, R16F or R32F"
                              : "must have an RGB or RGBA format";
 }
 
@@ -134,11 +140,13 @@ TEST_CASE("a texture of a wrong format is refused") {
   const std::vector<GLenum> targets = {GL_RGBA8, GL_SRGB8_ALPHA8, GL_RGBA16, GL_R32F, GL_RG32F, GL_DEPTH_COMPONENT24};
   const std::vector<GLenum> depths = {GL_RGBA32F, GL_R16F, GL_R16, GL_RG32F, GL_RGBA8};
   const std::vector<GLenum> maps = {GL_RGBA32F, GL_R16, GL_RG16F, GL_RGBA8};
+  const std::vector<GLenum> shares = {GL_RGBA8, GL_RG8, GL_RGBA16F, GL_DEPTH_COMPONENT24};
   const std::vector<GLenum> tints = {GL_R8, GL_RG8, GL_R32F, GL_DEPTH_COMPONENT24};
   for (const Slot& slot : kSlots)
     for (const GLenum format : slot.use == Use::Target  ? targets
                                : slot.use == Use::Depth ? depths
                                : slot.use == Use::Map   ? maps
+                               : slot.use == Use::Share ? shares
                                                         : tints) {
       CAPTURE(format);
       const host::GlTexture texture = make(slot.layers, format, slot.size(), slot.size());
@@ -199,7 +207,9 @@ TEST_CASE("a texture whose swizzle changes what is read of it is refused, a tint
   const std::vector<GLint> own = {GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA};
   for (const Slot& slot : kSlots) {
     const GLenum target = slot.layers == 0 ? GL_TEXTURE_2D : GL_TEXTURE_2D_ARRAY;
-    const int read = slot.use == Use::Depth || slot.use == Use::Map ? 1 : slot.field.rfind("output", 0) == 0 ? 3 : 0;
+    const int read = slot.use == Use::Depth || slot.use == Use::Map || slot.use == Use::Share ? 1
+                     : slot.field.rfind("output", 0) == 0                                     ? 3
+                                                                                              : 0;
     for (int channel = 0; channel < 4; ++channel)
       for (const GLint source : {GL_ZERO, GL_ONE, GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA}) {
         if (source == own[static_cast<std::size_t>(channel)]) continue;
@@ -243,6 +253,11 @@ TEST_CASE("a target that is written twice, or read while it is written, is refus
   frame = rig.frame;
   frame.output.transmittance = frame.output.inscatter;
   rig.checkRefused(frame, {"Frame::output.inscatter", "must differ", "output.transmittance"});
+  for (const std::uint32_t target : {rig.frame.colour, rig.frame.output.inscatter, rig.frame.output.transmittance}) {
+    frame = rig.frame;
+    frame.ambient.occlusion.texture = target;
+    rig.checkRefused(frame, {"Frame::ambient.occlusion.texture", "must"});
+  }
   const host::GlTexture map = host::makeTexture2D(GL_DEPTH_COMPONENT24, kSize, kSize);
   for (const std::uint32_t target : {rig.frame.colour, rig.frame.output.inscatter, rig.frame.output.transmittance}) {
     frame = rig.frame; // a float colour target would pass as a tint of the same size

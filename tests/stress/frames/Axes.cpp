@@ -11,7 +11,7 @@ namespace {
 constexpr const char* kNames[] = {"size",       "viewport",   "lens",     "pose",     "world",  "surface",
                                   "depth-form", "lights",     "places",   "cones",    "views",  "map-size",
                                   "texels",     "odd-texels", "layout",   "filter",   "medium", "far-distance",
-                                  "radiance",   "glass",      "settings", "relation", "layers"};
+                                  "radiance",   "glass",      "settings", "relation", "layers", "ambient"};
 static_assert(std::size(kNames) == kAxes);
 
 // Steele et al. 2014, "Fast splittable pseudorandom number generators": the same on every machine.

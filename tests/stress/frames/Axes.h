@@ -33,8 +33,9 @@ enum class Axis {
   Settings, ///< of the frame that is drawn by any settings
   Relation, ///< by which change the picture must stay
   Layers,   ///< of the medium, that thin out with height
+  Ambient,  ///< light of the surroundings
 };
-inline constexpr int kAxes = static_cast<int>(Axis::Layers) + 1;
+inline constexpr int kAxes = static_cast<int>(Axis::Ambient) + 1;
 
 const char* nameOf(Axis axis);
 

@@ -100,6 +100,20 @@ void makeLayers(Case& made, const AxisSet& simple) {
   medium.absorptionLayer = family.integer(-1, count - 1);
 }
 
+// In every third family surroundings shine: alike from all sides, or by harmonics that may fall below 0.
+void makeAmbient(Case& made, const AxisSet& simple) {
+  if (simple.has(Axis::Ambient)) return;
+  Random random(made.seed, Axis::Ambient), family = Random::ofFamily(made.seed, Axis::Ambient);
+  if (!family.chance(0.33)) return;
+  const double bright = random.logUniform(1e-3, 10);
+  for (float& channel : made.frame.ambient.radiance)
+    channel = static_cast<float>(bright * random.uniform(0, 1));
+  if (random.chance(0.5)) return;
+  for (Rgb& harmonic : made.frame.ambient.harmonics)
+    for (float& channel : harmonic)
+      channel = static_cast<float>(0.5 * bright * random.uniform(-1, 1));
+}
+
 void makeSettings(Case& made, const AxisSet& simple) {
   Settings& settings = made.anySettings;
   if (Random random = Random::ofFamily(made.seed, Axis::Filter); !simple.has(Axis::Filter) && random.chance(0.4))
@@ -133,6 +147,7 @@ Case makeCase(std::uint64_t seed, const AxisSet& simple) {
   makeMaps(made, simple);
   makeMedium(made, simple);
   makeLayers(made, simple);
+  makeAmbient(made, simple);
   makeSettings(made, simple);
   if (Random random = Random::ofFamily(seed, Axis::Relation); !simple.has(Axis::Relation))
     made.relation = static_cast<Relation>(random.integer(0, kRelations - 1));

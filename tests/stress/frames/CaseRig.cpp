@@ -33,6 +33,7 @@ CaseRig::CaseRig(const Case& made, Effect& effect) : frame(made.frame), made_(ma
   frame.output = {inscatter_.name(), transmittance_.name()};
   scene_.camera = frame.camera;
   scene_.medium = frame.medium;
+  scene_.ambient = frame.ambient;
   scene_.filter = frame.settings.shadowFilter;
   scene_.width = viewport.width;
   scene_.height = viewport.height;

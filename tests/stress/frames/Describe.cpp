@@ -52,6 +52,10 @@ std::string describe(const Case& made) {
     text += fmt::format("layer of height {:g}, scale {:g}, ground {:g}; up {:g} {:g} {:g}; absorption's {}\n",
                         layer.height, layer.scale, layer.ground, frame.medium.up[0], frame.medium.up[1],
                         frame.medium.up[2], frame.medium.absorptionLayer);
+  text += fmt::format("ambient {}", textOf(frame.ambient.radiance));
+  for (const Rgb& harmonic : frame.ambient.harmonics)
+    text += " " + textOf(harmonic);
+  text += "\n";
   text += fmt::format("absorption {}, far distance {:g}\n", textOf(frame.medium.absorption), frame.medium.farDistance);
   for (std::size_t i = 0; i < frame.lights.size(); ++i)
     text += textOf(frame.lights[i], made.maps[i], eye);

@@ -82,6 +82,14 @@ void scaleLights(Frame& frame, float factor) {
       channel *= factor;
 }
 
+void scaleAmbient(Ambient& ambient, float factor) {
+  for (float& channel : ambient.radiance)
+    channel *= factor;
+  for (Rgb& harmonic : ambient.harmonics)
+    for (float& channel : harmonic)
+      channel *= factor;
+}
+
 bool halveMedia(Medium& medium) {
   if (medium.constituents.empty() || medium.constituents.size() > kMaxConstituents / 2) return false;
   for (Constituent& constituent : medium.constituents)
@@ -114,6 +122,7 @@ std::optional<Case> related(const Case& made, Relation relation) {
     return other;
   case Relation::DoubledLight:
     scaleLights(other.frame, 2);
+    scaleAmbient(other.frame.ambient, 2);
     return other;
   case Relation::HalfMedia:
     if (!halveMedia(other.frame.medium)) return {};

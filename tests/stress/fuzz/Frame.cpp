@@ -4,6 +4,7 @@
 #include "FrameInput.h"
 #include "Plausible.h"
 #include "SampleBudget.h"
+#include "optics/Ambient.h"
 #include "optics/Blocks.h"
 #include "optics/EngineDepth.h"
 #include "optics/Jitter.h"
@@ -48,6 +49,11 @@ void requireFinite(const blocks::FrameBlock& block) {
     requireFinite(block.layerUp[i], "layerUp");
     requireFinite(block.layerExtinction[i], "layerExtinction");
   }
+}
+
+void requireFinite(const blocks::AmbientBlock& block) {
+  for (const blocks::vec4& row : block.ambientHarmonics)
+    requireFinite(row, "ambientHarmonics");
 }
 
 void requireFinite(const blocks::LightBlock& block, LightKind kind) {
@@ -124,6 +130,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!plausible) return 0;
   const Frame frame = prepared(given);
   requireFinite(optics::frameBlock(frame, {frame.depth.multisampled ? 4 : 1, 1e30F, 1e30F, 1e30F, 1e-6F}));
+  requireFinite(optics::ambientBlock(frame, {0, 0}));
+  fuzz::require(optics::brightestAmbient(frame) >= 0, "brightestAmbient is no NaN");
   dealSamples(frame, std::vector<bool>(frame.lights.size(), true));
   optics::isMonochrome(frame.medium);
   for (const Light& light : frame.lights)

@@ -189,6 +189,17 @@ tyndall::Medium mediumOf(Numbers& numbers) {
   return medium;
 }
 
+tyndall::Ambient ambientOf(Numbers& numbers) {
+  tyndall::Ambient ambient;
+  ambient.radiance = rgb(numbers, -9, 4);
+  if (numbers.flag())
+    for (tyndall::Rgb& harmonic : ambient.harmonics)
+      for (float& channel : harmonic)
+        channel = static_cast<float>(mostly(numbers, -1, 1) * scaled(numbers, -9, 4));
+  if (numbers.below(4) == 0) ambient.occlusion = {10, 0};
+  return ambient;
+}
+
 tyndall::Settings settingsOf(Numbers& numbers) {
   tyndall::Settings settings = tyndall::settingsOf(static_cast<tyndall::Profile>(numbers.below(4)));
   settings.technique = oneOf<tyndall::Technique>(numbers, 4);
@@ -253,6 +264,11 @@ tyndall::Frame frameOf(Numbers& numbers) {
   for (int i = numbers.below(4); i > 0; --i)
     frame.lights.push_back(lightOf(numbers));
   addObjects(numbers, frame);
+  // Last, so that what is in the corpus stays what it was.
+  if (numbers.below(2) == 1) frame.ambient = ambientOf(numbers);
+  if (numbers.below(8) == 1) frame.medium.dimsBackground = false;
+  for (tyndall::Light& light : frame.lights)
+    if (numbers.below(8) == 1) light.scatteringScale = static_cast<float>(mostly(numbers, 0, 10));
   return frame;
 }
 

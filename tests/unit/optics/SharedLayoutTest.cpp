@@ -134,7 +134,7 @@ int offsetOf(const std::vector<Struct>& structs, const Layouts& layouts, const s
 TEST_CASE("what of a block C++ writes is where std140 reads it") {
   const std::vector<Struct> structs = sharedStructs();
   const Layouts layouts(structs);
-  REQUIRE(structs.size() == 5);
+  REQUIRE(structs.size() == 6);
   for (const Struct& s : structs) {
     const Layout &shader = layouts.std140(s.name), &cpp = layouts.cpp(s.name);
     for (std::size_t i = 0; i < s.members.size(); ++i) {
@@ -153,6 +153,8 @@ TEST_CASE("the layouts from the text are the compiler's") {
   CHECK(4 * layouts.cpp("MapView").size == sizeof(MapView));
   CHECK(4 * layouts.cpp("LightBlock").size == sizeof(LightBlock));
   CHECK(4 * layouts.cpp("CopyBlock").size == sizeof(CopyBlock));
+  CHECK(4 * layouts.cpp("AmbientBlock").size == sizeof(AmbientBlock));
+  CHECK(offsetOf(structs, layouts, "AmbientBlock", "occlusionSize") == offsetof(AmbientBlock, occlusionSize));
   CHECK(4 * layouts.cpp("EpipolarBlock").size == sizeof(EpipolarBlock));
   CHECK(offsetOf(structs, layouts, "CopyBlock", "copiedLayer") == offsetof(CopyBlock, copiedLayer));
   CHECK(offsetOf(structs, layouts, "FrameBlock", "frameSize") == offsetof(FrameBlock, frameSize));

@@ -104,6 +104,42 @@ TEST_CASE("A medium that breaks a rule is refused by field", "[scene][medium]") 
   }
 }
 
+TEST_CASE("Ambient light is read, what is left out is 0, and what breaks a rule is refused by field",
+          "[scene][medium]") {
+  using Catch::Contains;
+  const auto parse = [](const char* text) { return host::parseAmbient(nlohmann::json::parse(text), "sky"); };
+  const auto refusalOf = [&](const char* text) {
+    try {
+      parse(text);
+    } catch (const host::Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("no refusal");
+  };
+  const tyndall::Ambient ambient = parse(R"({"radiance": [1, 0.5, 0], "harmonics": [[1, 2, 3], [-4, 0, 0.5]]})");
+  CHECK(ambient.radiance == tyndall::Rgb{1, 0.5F, 0});
+  CHECK(ambient.harmonics[0] == tyndall::Rgb{1, 2, 3});
+  CHECK(ambient.harmonics[1] == tyndall::Rgb{-4, 0, 0.5F});
+  CHECK(ambient.harmonics[8] == tyndall::Rgb{0, 0, 0});
+  CHECK(parse("{}").radiance == tyndall::Rgb{0, 0, 0});
+  CHECK_THAT(refusalOf("[]"), Contains("sky: must be an object"));
+  CHECK_THAT(refusalOf(R"({"colour": [1, 1, 1]})"), Contains("sky: unknown key \"colour\""));
+  CHECK_THAT(refusalOf(R"({"radiance": [1, 1, -1]})"), Contains("sky.radiance[2]: -1 must be finite and not negative"));
+  CHECK_THAT(refusalOf(R"({"radiance": 1})"), Contains("sky.radiance: must be 3 numbers"));
+  CHECK_THAT(refusalOf(R"({"harmonics": {}})"), Contains("sky.harmonics: must be an array of at most 9"));
+  CHECK_THAT(refusalOf(R"({"harmonics": [[0,0,0],0,0,0,0,0,0,0,0,0]})"), Contains("at most 9"));
+  CHECK_THAT(refusalOf(R"({"harmonics": [[0, 1e39, 0]]})"), Contains("sky.harmonics[0][1]"));
+  CHECK_THAT(refusalOf(R"({"harmonics": [[0, "x", 0]]})"), Contains("sky.harmonics[0][1]: must be a number"));
+}
+
+TEST_CASE("A medium says whether it dims what is behind it", "[scene][medium]") {
+  nlohmann::json json = good();
+  CHECK(host::parseMedium(json, "fog").dimsBackground);
+  json["dimsBackground"] = false;
+  CHECK_FALSE(host::parseMedium(json, "fog").dimsBackground);
+  CHECK_THAT(refusal("/dimsBackground", 1), Catch::Contains("fog.dimsBackground: must be true or false"));
+}
+
 TEST_CASE("Layers of a medium, and who follows them, are read or refused by field", "[scene][medium]") {
   using Catch::Contains;
   const auto layered = [] {

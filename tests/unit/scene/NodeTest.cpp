@@ -90,12 +90,18 @@ TEST_CASE("A rotation that is no unit quaternion is normalised and noted", "[sce
   CHECK(hasNote(scene, "nodes[0].rotation"));
 }
 
-TEST_CASE("Medium and sky come from the scene's extras", "[scene][gltf]") {
+TEST_CASE("Medium, ambient light and sky come from the scene's extras", "[scene][gltf]") {
   const host::Scene scene = everything().load();
   REQUIRE(scene.medium.has_value());
   CHECK(scene.medium->constituents.at(0).phase == tyndall::Phase::HenyeyGreenstein);
   CHECK(scene.skyRadiance == glm::vec3(0.1F, 0.2F, 0.4F));
+  CHECK_FALSE(scene.ambient.has_value());
   GltfFile wrong = everything();
+  wrong.json["scenes"][0]["extras"]["tyndall"]["ambient"] = {{"radiance", {1, 2, 3}}};
+  CHECK(wrong.load().ambient.value().radiance == tyndall::Rgb{1, 2, 3});
+  wrong.json["scenes"][0]["extras"]["tyndall"]["ambient"]["radiance"] = {1, -2, 3};
+  CHECK_THAT(wrong.refusal(), Catch::Contains("scenes[0].extras.tyndall.ambient.radiance[1]"));
+  wrong = everything();
   wrong.json["scenes"][0]["extras"]["tyndall"]["sky"] = {1, 2};
   CHECK_THAT(wrong.refusal(), Catch::Contains("scenes[0].extras.tyndall.sky: must be 3 numbers"));
   wrong = everything();
