@@ -19,6 +19,8 @@
 #define ESTIMATE_OCTAVE 16
 #define SLICE_BLOCK 8 // slices of a block, of which some are drawn (lib/slices.glsl)
 #define SLICE_BUDGETS 192 // prices of slices that are tried (sliceBudget.frag); at the last no block gets more than its least
+#define LOOKUP_LAYERS 3 // of a look-up that are drawn at once,
+#define LOOKUP_COLUMNS 8 // that stand side by side while light is added up
 #define LAMP_PIXELS 32.0 // around a lamp in the image, where every pixel is marched by itself: its light is brightest there
 
 UNIFORM_BLOCK(FrameBlock) {
@@ -52,16 +54,19 @@ UNIFORM_BLOCK(FrameBlock) {
   vec4 layerExtinction[MAX_HEIGHT_LAYERS]; // sigma_t where density is 1; w: ground
   int layerCount;
   int dimsBackground;                 // 0 for a medium that only adds light
-  int framePadding0, framePadding1;
+  int lookupDepths, lookupFirst;      // layers of a look-up (lib/lookup.glsl), the first of those that are drawn
+  ivec2 lookupSize;                   // texels of a layer
+  float lookupNear, lookupGrowth;     // layer i is at lookupNear 2^(i lookupGrowth)
 };
 
 // Light of the surroundings (passes/ambient.frag).
 UNIFORM_BLOCK(AmbientBlock) {
   // What the constituents that are the same everywhere scatter of it towards the eye, along a unit of length, and then those that follow
-  // each layer, where density is 1: nine coefficients each of 1, y, z, x, x y, y z, 3 z^2 - 1, x z, x^2 - y^2 of the ray's direction.
+  // each layer, where density is 1, as parts of ambientScale: nine coefficients each of 1, y, z, x, x y, y z, 3 z^2 - 1, x z, x^2 - y^2 of the ray's direction.
   vec4 ambientHarmonics[AMBIENT_ROWS];
   ivec2 occlusionSize;                // of the texture; 0: there is none
-  int ambientPadding0, ambientPadding1;
+  float ambientScale;
+  int ambientPadding0;
 };
 
 // A view of a light's shadow map.

@@ -141,6 +141,19 @@ Status checkAmbient(const Ambient& ambient) {
   return {};
 }
 
+Status checkLookup(const Frame& frame) {
+  const Lookup& lookup = frame.lookup;
+  if (lookup.inscatter == 0 && lookup.transmittance == 0) return {};
+  constexpr double kLeast = 1e-30, kMost = 1e30; // float32 holds them
+  if (!(lookup.nearDistance >= kLeast && lookup.nearDistance < kMost))
+    return invalid("lookup.nearDistance", text(lookup.nearDistance), "must be finite and > 0, as a 32-bit float");
+  if (!(lookup.farDistance > lookup.nearDistance && lookup.farDistance <= kMost))
+    return invalid("lookup.farDistance", text(lookup.farDistance), "must be finite and > nearDistance");
+  if (frame.settings.technique == Technique::Exact)
+    return invalid("settings.technique", "Exact", "Frame::lookup needs slices: technique Tree, LowRank or Epipolar");
+  return {};
+}
+
 Status checkView(const Frame& frame) {
   const DebugView view = frame.settings.debugView;
   const Technique technique = frame.settings.technique;
@@ -239,6 +252,7 @@ Status checkValues(const Frame& frame) {
   if (Status s = checkMedium(frame.medium); !s) return s;
   if (Status s = checkAmbient(frame.ambient); !s) return s;
   if (Status s = checkSettings(frame.settings); !s) return s;
+  if (Status s = checkLookup(frame); !s) return s;
   if (Status s = checkReuse(frame); !s) return s;
   if (Status s = checkView(frame); !s) return s;
   return checkRange(frame);

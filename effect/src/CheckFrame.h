@@ -30,10 +30,15 @@ struct FrameTextures {
     std::vector<blocks::CopyBlock> copies = {};
     int copySource = 0; ///< SOURCE of glsl/passes/mapCopy.frag
   };
+  struct Lookup {
+    int width = 0, height = 0, depths = 0; ///< 0: there is none
+    TargetTexture inscatter, transmittance;
+  };
   int depthSamples = 1;
   float depthRounding = 0; ///< share of a distance by which the scene depth's format rounds it
   TargetTexture colour, inscatter, transmittance;
-  glm::ivec2 occlusion{0};     ///< texels of Ambient::occlusion, 0 without
+  glm::ivec2 occlusion{0}; ///< texels of Ambient::occlusion, 0 without
+  Lookup lookup;
   std::vector<Shadow> shadows; ///< one per light, 0 x 0 without a shadow map
 };
 

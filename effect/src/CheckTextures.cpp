@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <tuple>
 
 namespace tyndall {
 
@@ -137,10 +138,44 @@ Status checkCurves(const Functions& gl, const std::string& field, const Light& l
 Status checkOcclusion(const Functions& gl, const Ambient& ambient, FrameTextures& textures) {
   if (ambient.occlusion.texture == 0) return {};
   TextureInfo info;
-  if (Status s = checkTexture(gl, "ambient.occlusion.texture", ambient.occlusion.texture, TEXTURE_2D, Use::Share, info);
+  if (Status s =
+          checkTexture(gl, "ambient.occlusion.texture", ambient.occlusion.texture, TEXTURE_2D, Use::Occlusion, info);
       !s)
     return s;
   textures.occlusion = {info.width, info.height};
+  return {};
+}
+
+// Of the two the first sets the size.
+Status checkLookup(const Functions& gl, const Frame& frame, FrameTextures& textures) {
+  constexpr int kMostTexels = 512, kLeastLayers = 2, kMostLayers = 64;
+  for (const auto& [field, name, format] :
+       {std::tuple{"lookup.inscatter", frame.lookup.inscatter, &textures.lookup.inscatter},
+        std::tuple{"lookup.transmittance", frame.lookup.transmittance, &textures.lookup.transmittance}}) {
+    if (name == 0) continue;
+    TextureInfo info;
+    if (Status s = checkTexture(gl, field, name, TEXTURE_2D_ARRAY, Use::Output, info); !s) return s;
+    *format = {static_cast<Enum>(info.format), largestValue(info.format)};
+    if (name == frame.colour || name == frame.output.inscatter || name == frame.output.transmittance)
+      return invalid(field, name, "must differ from colour and output");
+    if (info.width > kMostTexels || info.height > kMostTexels)
+      return invalid(field, name, "is " + textOf(info.width, info.height) + ", must be 512 x 512 at most");
+    if (info.layers < kLeastLayers || info.layers > kMostLayers)
+      return invalid(field, name, "has " + std::to_string(info.layers) + " layers, must have 2 to 64");
+    FrameTextures::Lookup& lookup = textures.lookup;
+    if (lookup.depths != 0) {
+      if (Status s = checkSize(field, name, info, lookup.width, lookup.height); !s) return s;
+      if (info.layers != lookup.depths)
+        return invalid(field, name,
+                       "has " + std::to_string(info.layers) + " layers, lookup.inscatter " +
+                           std::to_string(lookup.depths));
+    }
+    lookup.width = info.width;
+    lookup.height = info.height;
+    lookup.depths = info.layers;
+  }
+  if (frame.lookup.inscatter != 0 && frame.lookup.inscatter == frame.lookup.transmittance)
+    return invalid("lookup.transmittance", frame.lookup.transmittance, "must differ from lookup.inscatter");
   return {};
 }
 
@@ -225,6 +260,7 @@ Status checkTextures(const Functions& gl, const Frame& frame, FrameTextures& tex
   if (Status s = checkTargets(gl, frame, textures, targets); !s) return s;
   if (Status s = checkDepth(gl, frame, targets, textures); !s) return s;
   if (Status s = checkOcclusion(gl, frame.ambient, textures); !s) return s;
+  if (Status s = checkLookup(gl, frame, textures); !s) return s;
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     textures.shadows.emplace_back();
     const std::string field = "lights[" + std::to_string(i) + "].";

@@ -1,6 +1,7 @@
 #include "EffectState.h"
 #include "Plausible.h"
 #include "gl/StateGuard.h"
+#include "optics/Ambient.h"
 #include "optics/Jitter.h"
 #include "plan/MapCopies.h"
 
@@ -197,9 +198,15 @@ std::vector<FramePlan> Effect::State::planAhead(const Frame& frame, const FrameT
     how(planner);
     plans.push_back(std::move(planned.plan));
   };
+  const bool hasAmbient = optics::isLit(frame.ambient);
   for (const bool sumsApart : {false, true})
-    if (!sumsApart || frame.lights.size() > 1)
+    if (!sumsApart || frame.lights.size() + (hasAmbient ? 1 : 0) > 1)
       plan(frame, nullptr, [](FramePlanner& planner) { planner.plan(); }, sumsApart);
+  if (hasAmbient) { // which may fade, as at night
+    Frame dark = frame;
+    dark.ambient = {};
+    plan(dark, nullptr, [](FramePlanner& planner) { planner.plan(); });
+  }
   if (checksInputs) plan(frame, nullptr, [](FramePlanner& planner) { planner.planCheck(); });
   if (frame.reuse.changes == Changes::Unknown) return plans;
   KeptEye eye(gl, framebuffers, frame.reuse.eye);

@@ -102,7 +102,7 @@ bool isTint(Int format) {
   }
 }
 
-bool isShare(Int format) {
+bool isOcclusion(Int format) {
   const auto f = static_cast<Enum>(format);
   return f == R8 || f == R16 || f == R16F || f == R32F;
 }
@@ -171,7 +171,8 @@ Status checkFormat(const std::string& field, Uint name, Use use, Int format) {
     return invalid(field, name, "must have a float colour format (RGBA16F, RGBA32F, R11F_G11F_B10F, RGB16F, RGB32F)");
   if (use == Use::Tint && !isTint(format))
     return invalid(field, name, "must have an RGB or RGBA format of 8 bits or floats");
-  if (use == Use::Share && !isShare(format)) return invalid(field, name, "must have the format R8, R16, R16F or R32F");
+  if (use == Use::Occlusion && !isOcclusion(format))
+    return invalid(field, name, "must have the format R8, R16, R16F or R32F");
   if (use == Use::Curves && static_cast<Enum>(format) != RGBA32UI)
     return invalid(field, name, "must be what Avsm::curves() gave: RGBA32UI");
   return {};
@@ -180,10 +181,10 @@ Status checkFormat(const std::string& field, Uint name, Use use, Int format) {
 // How many channels of a texture are read as they are stored. No sampler can undo what the texture's own parameters do
 // to them; a tint may come in any order.
 std::size_t channelsRead(Use use) {
-  return use == Use::Depth || use == Use::Map || use == Use::Share ? 1
-         : use == Use::Output                                      ? 3
-         : use == Use::Curves                                      ? 4
-                                                                   : 0;
+  return use == Use::Depth || use == Use::Map || use == Use::Occlusion ? 1
+         : use == Use::Output                                          ? 3
+         : use == Use::Curves                                          ? 4
+                                                                       : 0;
 }
 
 // The texture is bound. OpenGL ES tells one channel at a time.

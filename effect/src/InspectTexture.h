@@ -10,7 +10,7 @@
 namespace tyndall {
 
 /// What a frame does with a texture.
-enum class Use { Colour, Output, Depth, Map, Tint, Curves, Share };
+enum class Use { Colour, Output, Depth, Map, Tint, Curves, Occlusion };
 
 /// Level 0, of a cube map of one face.
 struct TextureInfo {

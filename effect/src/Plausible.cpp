@@ -120,7 +120,7 @@ void checkMedium(const Frame& frame, Findings& findings) {
   }
   const Sight sight = sightOf(frame);
   constexpr double kOpaque = 7, kClear = 1e-7; // optical depths: a thousandth is left; less than a half float shows
-  if (least * sight.near > kOpaque)
+  if (least * sight.near > kOpaque && frame.medium.dimsBackground)
     findings.warnings.push_back(
         lineOf("medium", "so thick that nothing is seen",
                "1/extinction is " + text(1 / least) + " world units, the camera's near plane " + text(sight.near)));
@@ -135,11 +135,13 @@ void checkMedium(const Frame& frame, Findings& findings) {
 }
 
 void checkBrightness(const Frame& frame, Findings& findings) {
-  const auto isBlack = [](const Light& light) { return light.colour == Rgb{0, 0, 0}; };
-  if (!frame.lights.empty() && std::all_of(frame.lights.begin(), frame.lights.end(), isBlack))
-    findings.warnings.emplace_back("Frame::lights: the colour of each is black: no light is added");
-  constexpr double kRounding = 1e-3; // of coefficients that were fitted
-  if (const double least = optics::leastAmbient(frame); least < -kRounding)
+  const auto isBlack = [](const Light& light) { return light.colour == Rgb{0, 0, 0} || light.scatteringScale == 0; };
+  const bool areBlack = std::all_of(frame.lights.begin(), frame.lights.end(), isBlack);
+  if (!frame.lights.empty() && areBlack && !optics::isLit(frame.ambient))
+    findings.warnings.emplace_back(
+        "Frame::lights: the colour of each is black, or its scatteringScale 0: no light is added");
+  constexpr double kRinging = 0.05; // of coefficients that were fitted to a sky
+  if (const double least = optics::leastAmbient(frame); least < -kRinging)
     findings.warnings.push_back(lineOf("ambient.harmonics", "below 0 on some side",
                                        "what is scattered comes to " + text(least) +
                                            " of the most towards some directions, and is taken as 0"));

@@ -22,3 +22,18 @@ Airlight ambientLightOf(Ray ray) {
 #endif
   return light;
 }
+
+uniform sampler2D occlusion;
+
+float occlusionTexel(ivec2 texel) {
+  float share = texelFetch(occlusion, clamp(texel, ivec2(0), occlusionSize - 1), 0).r;
+  return share >= 0.0 ? min(share, 1.0) : share < 0.0 ? 0.0 : 1.0; // 1 of what is no number
+}
+
+// What is open at a place of the picture, which is jittered.
+float occlusionAt(vec2 windowPosition) {
+  if (occlusionSize.x == 0) return 1.0;
+  vec2 at = windowPosition / vec2(frameSize) * vec2(occlusionSize) - 0.5, f = fract(at);
+  ivec2 low = ivec2(floor(at));
+  return mix(mix(occlusionTexel(low), occlusionTexel(low + ivec2(1, 0)), f.x), mix(occlusionTexel(low + ivec2(0, 1)), occlusionTexel(low + 1), f.x), f.y);
+}

@@ -10,7 +10,6 @@
 #include "lib/airlight.glsl"
 #include "lib/ambient.glsl"
 
-uniform sampler2D occlusion;
 #if COMPOSITE
 #include "lib/outputs.glsl"
 #else
@@ -18,27 +17,23 @@ layout(location = 0) out vec4 outInscatter;
 layout(location = 1) out vec4 outTransmittance;
 #endif
 
-float shareAt(ivec2 texel) {
-  float share = texelFetch(occlusion, clamp(texel, ivec2(0), occlusionSize - 1), 0).r;
-  return share >= 0.0 ? min(share, 1.0) : share < 0.0 ? 0.0 : 1.0;
-}
-
-float openShare() {
-  if (occlusionSize.x == 0) return 1.0;
-  vec2 at = gl_FragCoord.xy / vec2(frameSize) * vec2(occlusionSize) - 0.5, f = fract(at);
-  ivec2 low = ivec2(floor(at));
-  return mix(mix(shareAt(low), shareAt(low + ivec2(1, 0)), f.x), mix(shareAt(low + ivec2(0, 1)), shareAt(low + 1), f.x), f.y);
-}
-
 void main() {
   vec3 transmittance = vec3(0.0), sum = vec3(0.0);
   Ray ray = cameraRay(unjittered(gl_FragCoord.xy));
   Airlight light = ambientLightOf(ray);
+  float last = -1.0; // most of a pixel's samples end where one before them does
+  vec3 passed = vec3(0.0), own = vec3(0.0);
   for (int k = 0; k < depthSampleCount; ++k) {
     float end = sampleEndAt(k);
-    transmittance += transmittanceTo(ray, end) / float(depthSampleCount);
-    addAirlight(light, 0.0, min(end, visibleEnd), 1.0 / float(depthSampleCount), sum);
+    if (end != last) {
+      passed = transmittanceTo(ray, end);
+      own = vec3(0.0);
+      addAirlight(light, 0.0, min(end, visibleEnd), 1.0, own);
+      last = end;
+    }
+    transmittance += passed / float(depthSampleCount);
+    sum += own / float(depthSampleCount);
   }
-  outInscatter = vec4(openShare() * min(sum, vec3(lightCeiling)), 0.0);
+  outInscatter = vec4(occlusionAt(gl_FragCoord.xy) * min(ambientScale * sum, vec3(lightCeiling)), 0.0);
   outTransmittance = vec4(transmittance, 1.0);
 }

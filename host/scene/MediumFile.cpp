@@ -34,7 +34,7 @@ enum class Sign { NotNegative, Any };
 
 /// Also refuses what only overflows as a float.
 float coefficient(const json& value, Sign sign, const std::string& where) {
-  if (!value.is_number()) refuse(where, "must be a number");
+  if (!value.is_number()) refuse(where, "must be a number, in the scene's units");
   const double number = value.get<double>();
   const bool isFinite = std::abs(number) <= double(std::numeric_limits<float>::max());
   if (!isFinite || (sign == Sign::NotNegative && number < 0)) {

@@ -125,7 +125,7 @@ void FrameRenderer::noteEnclosures(host::Notes& notes) {
   if (std::none_of(constituents.begin(), constituents.end(), scatters)) return;
   for (const host::Enclosure& enclosure : host::enclosuresOf(scene(), drawer_->pose(), frame_.camera, frame_.lights)) {
     const tyndall::Light& light = frame_.lights[static_cast<std::size_t>(enclosure.light)];
-    if (sum(light.colour) > 0 && isKeptOut(light))
+    if (sum(light.colour) > 0 && light.scatteringScale > 0 && isKeptOut(light))
       notes.push_back(enclosure.mesh + " encloses the camera and all that it sees: light " +
                       std::to_string(enclosure.light) + " is kept out; what is KHR_materials_unlit lets light in");
   }

@@ -133,7 +133,7 @@ std::vector<ShaderFile> allShaders() {
   Collector all;
   addPrograms(allVariants(), all);
   addPrograms(avsm::allVariants(), all);
-  for (const auto& shaders : {captureShaders(), insertShaders(), lookupShaders()})
+  for (const auto& shaders : {captureShaders(), insertShaders(), lookupShaders(), shaftsLookupShaders()})
     addPublic(shaders, all);
   addBaselines(all);
   return all.take();

@@ -1,6 +1,7 @@
 #include "PublicShaders.h"
 
 #include <tyndall/avsm.h>
+#include <tyndall/tyndall.h>
 
 using namespace tyndall;
 
@@ -94,6 +95,21 @@ std::vector<PublicShader> lookupShaders() {
               {name, "frag", text + "out vec4 colour;\n" + mainOf("colour = vec4(" + value + ");"), number, {}});
           all.push_back({name, "vert", text + mainOf("gl_Position = vec4(" + value + ");"), number, {}});
         }
+  return all;
+}
+
+std::vector<PublicShader> shaftsLookupShaders() {
+  std::vector<PublicShader> all;
+  for (const int number : {33, 43}) {
+    const std::string text = version(number) + shaftsLookupSource(), call = "tyndallShafts(vec2(0.5), 2.0)",
+                      name = "shafts-look-up-" + std::to_string(number);
+    all.push_back({name,
+                   "frag",
+                   text + "out vec4 colour;\n" + mainOf("colour = vec4(" + call + ".inscatter, 1.0);"),
+                   number,
+                   {}});
+    all.push_back({name, "vert", text + mainOf("gl_Position = vec4(" + call + ".transmittance, 1.0);"), number, {}});
+  }
   return all;
 }
 

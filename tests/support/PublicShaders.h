@@ -18,5 +18,6 @@ struct PublicShader {
 std::vector<PublicShader> captureShaders();
 std::vector<PublicShader> insertShaders();
 std::vector<PublicShader> lookupShaders();
+std::vector<PublicShader> shaftsLookupShaders();
 
 } // namespace tests

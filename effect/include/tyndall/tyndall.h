@@ -4,7 +4,7 @@
 // render() once; the effect adds single-scattered light with volumetric shadows to the engine's colour texture.
 //
 //     out(v) = back(v) T(d) + sum over lights of  integral_0^d T(s) [sum_k sigma_k p_k] E V G ds
-//                           + integral_0^d T(s) [sum_k sigma_k  integral p_k L_ambient] ds,
+//                           + integral_0^d T(s) [sum_k sigma_k  integral p_k L_ambient] ds  (Ambient),
 //     T(s) = exp(-integral_0^s sigma_t)
 //
 // Conventions. World units are the engine's own: nothing depends on their scale. Matrices are column-major, column
@@ -272,7 +272,8 @@ struct Medium {
 struct AmbientOcclusion {
   std::uint32_t texture = 0; ///< GL_TEXTURE_2D, R8, R16, R16F or R32F, level 0, of any size: all of it shows the
                              ///< frame's viewport, bilinear. 0 to 1, beyond that clamped, NaN as 1. 0: nothing
-  std::uint64_t version = 0; ///< of what it holds, as SceneDepth::version, which Changes::Objects looks at, too
+  std::uint64_t version = 0; ///< of what it holds, as SceneDepth::version: with Frame::reuse all pixels are drawn anew
+                             ///< unless it is as in the eye's last frame, and not 0
 };
 
 /// Light of the surroundings, as of a sky: it comes from all sides at once, and each constituent scatters it by its
@@ -386,7 +387,7 @@ Settings settingsOf(Profile profile);
 enum class Changes {
   Unknown, ///< anything may have: the frame is drawn in full, and nothing is kept of the eye
   Detect,  ///< the effect compares them with the last frame's, but for those whose versions say that nothing changed
-  Objects, ///< only what Frame::objects names, around which they are compared; versions are not looked at
+  Objects, ///< only what Frame::objects names, around which they are compared; their versions are not looked at
 };
 
 /// Temporal reuse (Lin et al. 2013): light of the last frame is kept where nothing has changed. A frame that reuses is
@@ -445,6 +446,25 @@ struct Output {
   int layer = -1;                  ///< of both, if they are GL_TEXTURE_2D_ARRAYs; -1: they are GL_TEXTURE_2Ds
 };
 
+/// Light of camera rays up to a set of distances, for what is drawn after the effect and has no depth of its own in the
+/// frame's: particles, panes, leaves. shaftsLookupSource() has the call for their shaders. It is made from the same
+/// shadow-map rows, trees and slices as the picture, so not with Technique::Exact. Layer i of n is light up to the
+/// distance near (far / near)^(i / (n - 1)) of a perspective camera's eye, or of an orthographic one's near plane,
+/// whatever the scene depth. With Frame::reuse it is drawn whole, but in a frame in which nothing has changed: then the
+/// textures stay as they are.
+struct Lookup {
+  /// GL_TEXTURE_2D_ARRAY, a float colour format as Output's, whose texels all show the viewport: 1 x 1 to 512 x 512, 2
+  /// to 64 layers. Receives inscattered radiance; 0: none is wanted
+  std::uint32_t inscatter = 0;
+  std::uint32_t transmittance = 0; ///< as large and deep; receives T per channel; 0: not wanted
+  double nearDistance = 0;         ///< of the first layer, world units, finite and > 0
+  double farDistance = 0;          ///< of the last, finite and > nearDistance
+};
+
+/// GLSL of tyndallShafts(windowPosition, distance), which a shader of #version 330, or 300 es, or later includes: the
+/// inscatter and the transmittance before a point, of a Lookup.
+const char* shaftsLookupSource();
+
 /// All that one render() call reads. Every texture keeps its parameters; the effect binds samplers of its own. Relative
 /// to the eye, matrices, planes and depth scales are finite as 32-bit floats; lights may be as far as doubles are.
 struct Frame {
@@ -460,6 +480,7 @@ struct Frame {
   Ambient ambient;
   Settings settings;
   Output output;
+  Lookup lookup;
   Reuse reuse;
   std::vector<MovingObject> objects; ///< for Changes::Objects: all that moved since the eye's last frame
 };

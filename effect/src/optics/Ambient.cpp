@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <vector>
 
 namespace tyndall::optics {
 
@@ -14,7 +16,7 @@ namespace {
 using glm::dvec3;
 
 constexpr std::size_t kTerms = AMBIENT_TERMS;
-constexpr double kBrightest = 1e37; // float32 holds the sum of so many terms
+constexpr double kBrightest = 3e38; // float32 holds it
 // Of the harmonics, in the order of Ambient::harmonics, which is that of the terms of AmbientBlock.
 constexpr std::array<double, kTerms> kFactors = {0.28209479177387814, 0.4886025119029199, 0.4886025119029199,
                                                  0.4886025119029199,  1.0925484305920792, 1.0925484305920792,
@@ -34,13 +36,41 @@ Terms scatteredBy(const Constituent& constituent, const Ambient& ambient) {
   return terms;
 }
 
-dvec3 at(const Terms& terms, const dvec3& d) {
-  const std::array<double, kTerms> values = {
-      1, d.y, d.z, d.x, d.x * d.y, d.y * d.z, 3 * d.z * d.z - 1, d.x * d.z, d.x * d.x - d.y * d.y};
-  dvec3 sum(0);
-  for (std::size_t i = 0; i < kTerms; ++i)
-    sum += values[i] * terms[i];
-  return sum;
+// Of what is the same everywhere, and of what follows each layer.
+using Groups = std::array<Terms, 1 + MAX_HEIGHT_LAYERS>;
+
+Groups groupsOf(const Frame& frame) {
+  Groups groups{};
+  const bool layered = isLayered(frame.medium);
+  for (const Constituent& constituent : frame.medium.constituents) {
+    const Terms terms = scatteredBy(constituent, frame.ambient);
+    Terms& group = groups[layered ? static_cast<std::size_t>(constituent.layer + 1) : 0];
+    for (std::size_t i = 0; i < kTerms; ++i)
+      group[i] += terms[i];
+  }
+  return groups;
+}
+
+using Values = std::array<double, kTerms>; // of the terms' polynomials, for a direction
+
+Values valuesAt(const dvec3& d) {
+  return {1, d.y, d.z, d.x, d.x * d.y, d.y * d.z, 3 * d.z * d.z - 1, d.x * d.z, d.x * d.x - d.y * d.y};
+}
+
+// What harmonics of degree 2 have between so many directions all around is at most 2 % of what they have there.
+const std::vector<Values>& valuesAround() {
+  static const std::vector<Values> values = [] {
+    constexpr int kSteps = 16;
+    std::vector<Values> all;
+    for (int i = 0; i <= kSteps; ++i)
+      for (int j = 0; j < 2 * kSteps; ++j) {
+        const double polar = glm::pi<double>() * i / kSteps, around = glm::pi<double>() * j / kSteps;
+        all.push_back(
+            valuesAt({std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around), std::cos(polar)}));
+      }
+    return all;
+  }();
+  return values;
 }
 
 } // namespace
@@ -71,51 +101,52 @@ std::array<double, 3> phaseMoments(const Constituent& constituent) {
 
 blocks::AmbientBlock ambientBlock(const Frame& frame, const glm::ivec2& occlusionSize) {
   blocks::AmbientBlock block{};
-  std::array<Terms, 1 + MAX_HEIGHT_LAYERS> groups{};
-  const bool layered = isLayered(frame.medium);
-  for (const Constituent& constituent : frame.medium.constituents) {
-    const Terms terms = scatteredBy(constituent, frame.ambient);
-    Terms& group = groups[layered ? static_cast<std::size_t>(constituent.layer + 1) : 0];
-    for (std::size_t i = 0; i < kTerms; ++i)
-      group[i] += terms[i];
-  }
+  const Groups groups = groupsOf(frame);
+  double greatest = 0;
+  for (const Terms& terms : groups)
+    for (const dvec3& term : terms)
+      greatest = std::max({greatest, std::abs(term.x), std::abs(term.y), std::abs(term.z)});
+  if (greatest == 0) return block;
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (std::size_t i = 0; i < kTerms; ++i)
-      block.ambientHarmonics[g * kTerms + i] = glm::dvec4(glm::clamp(groups[g][i], -kBrightest, kBrightest), 0);
+      block.ambientHarmonics[g * kTerms + i] = glm::dvec4(groups[g][i] / greatest, 0);
+  block.ambientScale = static_cast<float>(std::min(greatest, kBrightest));
   block.occlusionSize = occlusionSize;
   return block;
 }
 
 double brightestAmbient(const Frame& frame) {
+  constexpr Values kMost = {1, 1, 1, 1, 0.5, 0.5, 2, 0.5, 1}; // of the terms' polynomials
   const dvec3 way = longestWay(frame.medium, cameraOrigin(frame.camera), 1e300);
-  dvec3 most(0); // none of the terms' polynomials is more than 2
-  for (const Constituent& constituent : frame.medium.constituents)
-    for (const dvec3& term : scatteredBy(constituent, frame.ambient))
-      most += 2.0 * glm::abs(term);
+  dvec3 most(0);
+  for (const Constituent& constituent : frame.medium.constituents) {
+    const Terms terms = scatteredBy(constituent, frame.ambient);
+    for (std::size_t i = 0; i < kTerms; ++i)
+      most += kMost[i] * glm::abs(terms[i]);
+  }
   double brightest = 0;
   for (int c = 0; c < 3; ++c)
     if (most[c] > 0) brightest = std::max(brightest, most[c] * way[c]);
   return brightest;
 }
 
-// In directions all around: what degree 2 leaves out between them is less than 2 %.
 double leastAmbient(const Frame& frame) {
-  constexpr int kSteps = 24;
-  double least = 0, most = 0;
-  for (const Constituent& constituent : frame.medium.constituents) {
-    const Terms terms = scatteredBy(constituent, frame.ambient);
-    for (int i = 0; i <= kSteps; ++i)
-      for (int j = 0; j < 2 * kSteps; ++j) {
-        const double polar = 3.141592653589793 * i / kSteps, around = 3.141592653589793 * j / kSteps;
-        const dvec3 value =
-            at(terms, {std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around), std::cos(polar)});
-        for (int c = 0; c < 3; ++c) {
-          least = std::min(least, value[c]);
-          most = std::max(most, std::abs(value[c]));
-        }
-      }
+  const auto isBlack = [](const Rgb& colour) { return colour == Rgb{0, 0, 0}; };
+  const auto& harmonics = frame.ambient.harmonics;
+  if (std::all_of(harmonics.begin(), harmonics.end(), isBlack)) return 0;
+  double worst = 0;
+  for (const Terms& terms : groupsOf(frame)) {
+    double least = 0, most = 0;
+    for (const Values& values : valuesAround()) {
+      dvec3 sum(0);
+      for (std::size_t i = 0; i < kTerms; ++i)
+        sum += values[i] * terms[i];
+      least = std::min({least, sum.x, sum.y, sum.z});
+      most = std::max({most, std::abs(sum.x), std::abs(sum.y), std::abs(sum.z)});
+    }
+    if (most > 0) worst = std::min(worst, least / most);
   }
-  return most > 0 ? least / most : 0;
+  return worst;
 }
 
 } // namespace tyndall::optics

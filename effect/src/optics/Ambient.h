@@ -22,8 +22,8 @@ blocks::AmbientBlock ambientBlock(const Frame& frame, const glm::ivec2& occlusio
 /// More than any pixel receives of it.
 double brightestAmbient(const Frame& frame);
 
-/// The least that a constituent scatters of it in any direction and channel, as a part of the most; below 0 where the
-/// harmonics make it so. 0 if nothing is scattered.
+/// The least that the constituents which follow one layer, or none, scatter of it together in any direction and
+/// channel, as a part of the most; below 0 where the harmonics make it so, else 0.
 double leastAmbient(const Frame& frame);
 
 } // namespace tyndall::optics

@@ -111,6 +111,14 @@ void setLayers(blocks::FrameBlock& block, const Frame& frame) {
   }
 }
 
+void setLookup(blocks::FrameBlock& block, const Lookup& lookup, const glm::ivec3& size) {
+  if (size.z < 2) return;
+  block.lookupSize = glm::ivec2(size);
+  block.lookupDepths = size.z;
+  block.lookupNear = static_cast<float>(lookup.nearDistance);
+  block.lookupGrowth = static_cast<float>(std::log2(lookup.farDistance / lookup.nearDistance) / (size.z - 1));
+}
+
 } // namespace
 
 bool isWholeLayer(const Rectangle& r) { return r.x == 0 && r.y == 0 && r.width == 0 && r.height == 0; }
@@ -189,6 +197,7 @@ blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
   block.frameSize = {frame.viewport.width, frame.viewport.height};
   block.jitter = {frame.camera.jitter[0], frame.camera.jitter[1]};
   setEngineDepth(block, frame, sizes.depthRounding);
+  setLookup(block, frame.lookup, sizes.lookup);
   return block;
 }
 

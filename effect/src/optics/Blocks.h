@@ -14,6 +14,7 @@ struct FrameSizes {
   float colourMax = 0;     ///< largest radiance that Frame::colour's format holds
   float outputMax = 0;     ///< the same of Output::inscatter
   float depthRounding = 0; ///< share of a distance by which the depth's format rounds it
+  glm::ivec3 lookup{0};    ///< texels and layers of Frame::lookup, 0 without
 };
 
 /// The point that shader positions are relative to: the eye, or the middle of the near plane if orthographic, where

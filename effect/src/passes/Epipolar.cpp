@@ -1,6 +1,7 @@
 #include "passes/Epipolar.h"
 
 #include "passes/DebugSlices.h"
+#include "passes/Lookup.h"
 #include "passes/PixelTree.h"
 #include "passes/Rows.h"
 #include "passes/SliceChoice.h"
@@ -55,10 +56,12 @@ void planEpipolar(LightPlanner& light) {
 } // namespace
 
 void plan(LightPlanner& light, DebugView view) {
+  bool rowsAtHand = true;
   if (light.frame.settings.technique == Technique::Epipolar)
     planEpipolar(light);
   else
-    pixel_tree::plan(light);
+    rowsAtHand = pixel_tree::plan(light);
+  if (light.fillsLookup) lookup::addLight(light, rowsAtHand);
   debug_slices::plan(light, view);
 }
 

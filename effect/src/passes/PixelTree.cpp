@@ -42,7 +42,7 @@ Tables planLowRank(LightPlanner& light) {
 
 } // namespace
 
-void plan(LightPlanner& light) {
+bool plan(LightPlanner& light) {
   const Tables tables = planLowRank(light);
   for (int draw = 0; draw < light.draws(); ++draw) {
     light.selectDraw(draw);
@@ -57,6 +57,7 @@ void plan(LightPlanner& light) {
     else
       samples::drawLight(light, Pass::PixelTree, {});
   }
+  return !tables.tintSums;
 }
 
 void planVisits(LightPlanner& light) {

@@ -7,7 +7,7 @@
 namespace tyndall::passes::pixel_tree {
 
 /// By Technique::Tree or LowRank.
-void plan(LightPlanner& light);
+bool plan(LightPlanner& light);
 
 /// Adds what the walks look at to the debug view, instead of light to the destination.
 void planVisits(LightPlanner& light);

@@ -52,20 +52,22 @@ bool isOfSunbeams(std::string_view fragment, const Values& values) {
 
 // Where the medium's layers are looked at: where light is integrated, and what is left of the picture behind.
 bool seesLayers(std::string_view fragment, const Values& values) {
-  return isOneOf(fragment, {"ambient", "exact", "fixup", "march", "marchExtra", "pixelTree", "transmittance", "unwarp",
-                            "unwarpEdges"}) &&
+  return isOneOf(fragment, {"ambient", "exact", "fixup", "lookupAmbient", "lookupLight", "lookupTransmittance", "march",
+                            "marchExtra", "pixelTree", "transmittance", "unwarp", "unwarpEdges"}) &&
          values["LOW_RANK"] == 0 && values["SHARES"] == 0;
 }
 
 // One layer has programs of its own where most is marched: by the nearest texels, without glass and smoke.
 bool hasProgramsForOneLayer(std::string_view fragment, const Values& values) {
+  if (isOneOf(fragment, {"ambient", "lookupAmbient"})) return values["HEIGHT"] == kOnlyLayer; // in closed form
   return isOneOf(fragment, {"exact", "fixup", "march", "marchExtra"}) && values["FILTER_BILINEAR"] == 0 &&
          values["GLASS"] == 0 && values["CURVES"] == 0 && values["SHADOW_VIEWS"] != 0;
 }
 
 // Lights without a map, a medium with layers, low rank, the debug view of visits, pixels marched between slices or
-// where shares of the light do not tell, and mixtures.
+// where shares of the light do not tell, mixtures, and look-ups.
 bool isSeldom(std::string_view fragment, const Values& values) {
+  if (isOneOf(fragment, {"lookupLight"})) return true;
   if (!isOneOf(fragment, {"exact", "fixup", "march", "marchExtra", "pixelTree"})) return values["ROW_HASHES"] != 0;
   if (values["SHADOW_VIEWS"] == 0) return true;
   return isOneOf(fragment, {"fixup"}) || values["HEIGHT"] == kAnyLayers || values["LOW_RANK"] != 0 ||
@@ -105,14 +107,13 @@ void chooseMaps(std::string_view fragment, Values values) {
 gl::Definitions general(const std::string& fragment, gl::Definitions definitions) {
   Values values(definitions);
   if (!seesLayers(fragment, values)) values.set("HEIGHT", kNoLayers);
-  if (isOneOf(fragment, {"ambient", "transmittance"})) values.set("MONOCHROME", 0);
+  if (isOneOf(fragment, {"ambient", "lookupAmbient", "lookupLight", "lookupTransmittance", "transmittance"}))
+    values.set("MONOCHROME", 0);
   if (values["HEIGHT"] == kOnlyLayer && values["LIGHT_KIND"] != 0) values.set("HEIGHT", kOneLayer);
-  if (isOneOf(fragment, {"ambient"})) // which no map blocks
+  if (isOneOf(fragment, {"ambient", "lookupAmbient"})) // which no map blocks
     for (const char* name : {"SHADOW_VIEWS", "SHADOW_ARRAY", "FILTER_BILINEAR", "GLASS", "CURVES"})
       values.set(name, 0);
-  const bool isClosedForm = values["HEIGHT"] == kOnlyLayer && isOneOf(fragment, {"ambient"});
-  if (values["HEIGHT"] != kNoLayers && !isClosedForm && !hasProgramsForOneLayer(fragment, values))
-    values.set("HEIGHT", kAnyLayers);
+  if (values["HEIGHT"] != kNoLayers && !hasProgramsForOneLayer(fragment, values)) values.set("HEIGHT", kAnyLayers);
   if (values["HEIGHT"] == kAnyLayers && !isOneOf(fragment, {"unwarp", "unwarpEdges"})) values.set("MONOCHROME", 0);
   if (values["COUNT_VISITS"] != 0) { // which depend neither on colours nor on smoke
     values.set("MONOCHROME", 1);
@@ -125,7 +126,8 @@ gl::Definitions general(const std::string& fragment, gl::Definitions definitions
   }
   // A point light is a spot with an open cone: to low rank, which has the cone in its factors, and where it is seldom.
   if (isSeldom(fragment, values) && values["LIGHT_KIND"] == 1) values.set("LIGHT_KIND", 2);
-  if (isOneOf(fragment, {"exact", "fixup", "march", "marchExtra", "pixelTree", "rowDepths", "tintGroups"}))
+  if (isOneOf(fragment,
+              {"exact", "fixup", "lookupLight", "march", "marchExtra", "pixelTree", "rowDepths", "tintGroups"}))
     chooseMaps(fragment, values);
   if (isMixture(values) && !isOfSunbeams(fragment, values)) values.set("MONOCHROME", 0);
   // Where light only changes its measure all lamps are alike.

@@ -138,6 +138,9 @@ void PassPlanner::addTarget(const PassRow& row, const DrawOptions& options, Draw
   case Into::Output:
     draw.framebuffer = imageTarget({options.output}, false);
     break;
+  case Into::Lookup:
+    addLookupTarget(options, draw);
+    break;
   }
 }
 
@@ -154,6 +157,18 @@ void PassPlanner::addOwnTarget(const PassRow& row, int layer, bool withStencil, 
   draw.framebuffer = allocator.framebuffer(attachments, {});
   const Size drawn = rowOf(row.writes.front()).drawn(extent);
   draw.viewport = {0, 0, drawn.width, drawn.height};
+}
+
+void PassPlanner::addLookupTarget(const DrawOptions& options, Draw& draw) {
+  Attachments attachments;
+  attachments.engines = true;
+  static_assert(std::tuple_size_v<decltype(attachments.colours)> == LOOKUP_LAYERS);
+  for (int i = 0; i < LOOKUP_LAYERS && options.layer + i < extent.lookupDepths; ++i) {
+    attachments.colours[static_cast<std::size_t>(i)] = options.output;
+    attachments.layers[static_cast<std::size_t>(i)] = options.layer + i;
+  }
+  draw.framebuffer = allocator.framebuffer(attachments, "lookup");
+  draw.viewport = {0, 0, extent.lookup.width, extent.lookup.height};
 }
 
 // A draw that only adds brings no transmittance.

@@ -48,8 +48,8 @@ struct DrawOptions {
   Counting counting = {};
   std::optional<Viewport> viewport = {}; ///< in place of what the resource's row says
   std::optional<float> clearTo = {};     ///< clears the target first
-  gl::Uint output = 0;                   ///< Into::Output: which texture
-  int layer = -1;                        ///< of the resource's textures, if they are arrays
+  gl::Uint output = 0;                   ///< Into::Output, Lookup: which texture
+  int layer = -1;                        ///< of the resource's textures, if they are arrays; Into::Lookup: the first
   std::optional<Blend> blend = {};       ///< in place of the row's joining
 };
 
@@ -87,9 +87,10 @@ public:
   RayPaths paths;
   const BandPaces* paces = nullptr; ///< what is known of earlier frames' draws
   Destination destination;
-  std::string name;       ///< of the light, for statistics; else empty
-  bool firstLight = true; ///< of the frame: the one that brings the transmittance
-  int drawIndex = 0;      ///< of the light's draws, which add up
+  std::string name;         ///< of the light, for statistics; else empty
+  bool firstLight = true;   ///< of the frame: the one that brings the transmittance
+  bool fillsLookup = false; ///< Frame::lookup: what is drawn is added to it, too
+  int drawIndex = 0;        ///< of the light's draws, which add up
   int frameBlock = 0, lightBlock = 0, epipolarBlock = 0;
   /// Temporal reuse: only these slices, segments and tiles are drawn; 0: all are.
   gl::Uint drawnSlices = 0, drawnSegments = 0, drawnTiles = 0;
@@ -116,6 +117,7 @@ private:
   void addOwnTarget(const PassRow& row, int layer, bool withStencil, Draw& draw);
   void addVertices(Shape shape, bool changes, Draw& draw) const;
   void addBands(const PassRow& row, Draw& draw) const;
+  void addLookupTarget(const DrawOptions& options, Draw& draw);
   Blend blendOf(Joining joining) const;
   gl::Uint destinationTarget(Blend blend, bool withStencil);
 };

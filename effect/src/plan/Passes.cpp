@@ -386,6 +386,23 @@ std::vector<PassRow> makeRows() {
           .walksOwnLine()
           .into(Into::Destination)
           .joins(kSumOfLights),
+      Row(Pass::LookupLight, "look-up", "passes/lookupLight.frag")
+          .reads({R::SliceTable})
+          .readsIfThere({R::SliceBlocks})
+          .walksRows()
+          .writes({R::LookupSteps})
+          .joins(Joining::AddAll),
+      Row(Pass::LookupAmbient, "look-up", "passes/lookupAmbient.frag")
+          .readsIfThere({R::Occlusion})
+          .walksOpen()
+          .writes({R::LookupSteps})
+          .joins(Joining::AddAll)
+          .when(isDirectional),
+      Row(Pass::LookupSums, "look-up", "passes/lookupSums.frag")
+          .reads({R::LookupSteps})
+          .into(Into::Lookup)
+          .sameForAllLights(),
+      Row(Pass::LookupTransmittance, "look-up", "passes/lookupTransmittance.frag").into(Into::Lookup),
       Row(Pass::KeepEnds, "keep ends", "passes/copyTexels.frag", S::Slices)
           .reads({R::Image})
           .writes({R::SampleEnds})

@@ -67,6 +67,11 @@ enum class Pass {
   FixupByShares,
   FixupAllTexels,
   FixupOwnLine,
+  // Frame::lookup (passes/Lookup.cpp).
+  LookupLight,
+  LookupAmbient,
+  LookupSums,
+  LookupTransmittance,
   // Temporal reuse (reuse/).
   KeepEnds,
   KeepRows,
@@ -116,6 +121,7 @@ enum class Into {
   DebugView,   ///< the debug view's texture, beside the destination's stencil
   Colour,      ///< the frame's colour
   Output,      ///< a texture of the engine's that the plan names
+  Lookup,      ///< layers of one, likewise
 };
 
 /// How a pass's outputs join what is there.

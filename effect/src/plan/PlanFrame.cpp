@@ -9,6 +9,7 @@
 #include "optics/Jitter.h"
 #include "optics/LightVolume.h"
 #include "passes/Epipolar.h"
+#include "passes/Lookup.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,10 @@ namespace {
 bool hasDebugView(const Frame& frame) { return frame.settings.debugView != DebugView::Composite; }
 bool showsSlices(const Frame& frame) { return rowOf(frame.settings.debugView)->shown != Shown::Picture; }
 bool usesSlices(const Frame& frame) { return frame.settings.technique != Technique::Exact; }
-bool changesColour(const Frame& frame) { return optics::extinctionOf(frame.medium) != glm::dvec3(0); }
+bool changesColour(const Frame& frame) {
+  const auto isThere = [](const glm::dvec3& sigma) { return sigma != glm::dvec3(0); };
+  return isThere(frame.medium.dimsBackground ? optics::extinctionOf(frame.medium) : optics::scatteringOf(frame.medium));
+}
 
 // Why a light has nothing to add; empty if it has.
 std::string reasonToSkip(const Frame& frame, const Light& light, bool wantsInscatter, bool anyCamera) {
@@ -104,6 +108,9 @@ FramePlanner::FramePlanner(const PlanInputs& inputs, Allocator& allocator, Plann
                             inputs.textures.transmittance.format};
   passes_.variant.dualSource = inputs.tuning.compositing == Compositing::DualSource;
   passes_.variant.layers = optics::isLayered(frame_.medium) ? kAnyLayers : kNoLayers;
+  const FrameTextures::Lookup& lookup = inputs.textures.lookup;
+  passes_.extent.lookup = {lookup.width, lookup.height};
+  passes_.extent.lookupDepths = lookup.depths;
   passes_.extent.sampledDepth = frame_.depth.multisampled;
   passes_.extent.sampleShift = optics::sampleShift(frame_, inputs.textures.depthSamples);
   passes_.paths.depthSamples = inputs.textures.depthSamples;
@@ -112,7 +119,9 @@ FramePlanner::FramePlanner(const PlanInputs& inputs, Allocator& allocator, Plann
 }
 
 void FramePlanner::plan() {
-  if (!changesColour(frame_)) out_.plan.skip("composite", "the medium neither scatters nor absorbs");
+  if (!changesColour(frame_))
+    out_.plan.skip("composite", frame_.medium.dimsBackground ? "the medium neither scatters nor absorbs"
+                                                             : "the medium does not scatter, and dims nothing");
   const bool reuses =
       in_.eye && changesColour(frame_) && (!hasDebugView(frame_) || frame_.settings.debugView == DebugView::Redrawn);
   makeStandIns(changesColour(frame_) || hasDebugView(frame_));
@@ -134,11 +143,16 @@ void FramePlanner::planWithEye() {
 // composite.
 void FramePlanner::planInFull() {
   const Output& output = frame_.output;
-  if (!changesColour(frame_) && !hasDebugView(frame_) && output.inscatter == 0 && output.transmittance == 0) return;
+  const bool looksUp = in_.textures.lookup.depths > 0;
+  const bool shows =
+      changesColour(frame_) || hasDebugView(frame_) || output.inscatter != 0 || output.transmittance != 0;
+  if (!shows && !looksUp) return;
   begin(chooseDestination(changesColour(frame_)));
   planDepth();
   if (showsSlices(frame_)) passes_.clear(Resource::DebugView, 0);
-  planLights(frame_, passes_.destination, lightsToDraw(frame_, passes_.destination));
+  if (looksUp) passes::lookup::begin(passes_);
+  if (shows) planLights(frame_, passes_.destination, lightsToDraw(frame_, passes_.destination));
+  finishLookup();
   if (passes_.destination.copies) copyToOutput(passes_.destination.inscatter, inscatter_.texture);
   if (!passes_.destination.composite) return;
   if (frame_.settings.debugView == DebugView::Redrawn) showRedrawn(Redraw::All, {});
@@ -203,9 +217,13 @@ void FramePlanner::planDepth() {
 
 void FramePlanner::begin(const Destination& destination) {
   passes_.destination = destination;
-  passes_.frameBlock =
-      out_.plan.add(optics::frameBlock(frame_, {in_.textures.depthSamples, destination.ceiling, in_.textures.colour.max,
-                                                in_.textures.inscatter.max, in_.textures.depthRounding}));
+  const FrameTextures::Lookup& lookup = in_.textures.lookup;
+  passes_.frameBlock = out_.plan.add(optics::frameBlock(frame_, {in_.textures.depthSamples,
+                                                                 destination.ceiling,
+                                                                 in_.textures.colour.max,
+                                                                 in_.textures.inscatter.max,
+                                                                 in_.textures.depthRounding,
+                                                                 {lookup.width, lookup.height, lookup.depths}}));
 }
 
 std::vector<DrawnLight> FramePlanner::lightsToDraw(const Frame& frame, const Destination& destination) {
@@ -228,6 +246,15 @@ std::vector<DrawnLight> FramePlanner::lightsToDraw(const Frame& frame, const Des
   return lights;
 }
 
+void FramePlanner::finishLookup() {
+  if (std::exchange(passes_.fillsLookup, false)) passes::lookup::finish(passes_, frame_.lookup, in_.textures.lookup);
+}
+
+AmbientKey FramePlanner::ambientKey() const {
+  if (!reasonToSkipAmbient(frame_, true).empty()) return {};
+  return {optics::ambientBlock(frame_, in_.textures.occlusion), frame_.ambient.occlusion};
+}
+
 // The light of the surroundings comes first, with the transmittance; the lights are added to it. False if there is
 // none.
 bool FramePlanner::planAmbient(const PassPlanner& planner) {
@@ -239,10 +266,10 @@ bool FramePlanner::planAmbient(const PassPlanner& planner) {
   passes.firstLight = true;
   passes.variant.layers = layersFor(frame_.medium, {});
   passes.variant.composite = to.direct();
-  passes.variant.shadowViews = 1; // programs with fewer are those of any layers
   passes.epipolarBlock = out_.plan.add(optics::ambientBlock(frame_, in_.textures.occlusion));
   passes.board[Resource::Occlusion] = frame_.ambient.occlusion.texture;
   passes.draw(Pass::Ambient);
+  if (passes.fillsLookup) passes.draw(Pass::LookupAmbient);
   return true;
 }
 

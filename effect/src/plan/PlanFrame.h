@@ -69,6 +69,8 @@ private:
   void planSamples();
   void planDepth();
   std::vector<DrawnLight> lightsToDraw(const Frame& frame, const Destination& destination);
+  AmbientKey ambientKey() const;
+  void finishLookup();
   bool planAmbient(const PassPlanner& planner);
   void planLights(const Frame& frame, const Destination& destination, const std::vector<DrawnLight>& lights);
   void planPicture();

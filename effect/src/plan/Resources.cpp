@@ -65,6 +65,9 @@ Size budgets(E) { return {SLICE_BUDGETS, 1}; }
 Size codes(E) { return {ESTIMATE_CODES, 1}; }
 Size imageRows(E e) { return {e.height, 1}; }
 
+Size lookup(E e) {
+  return {LOOKUP_COLUMNS * e.lookup.width, e.lookup.height * unitsFor(e.lookupDepths, LOOKUP_COLUMNS)};
+}
 Size mapCopy(E e) { return e.mapCopy; }
 
 Size groups(E e) { return {e.rowTexels / 4, e.rowRoom}; }
@@ -171,6 +174,8 @@ constexpr ResourceRow kRows[] = {
      "flags"},
     {"unserved tiles", kR32, kR32, always, always, tiles, tiles, Lifetime::Frame, "the same: tiles that hold one",
      "flags"},
+    {"lookup steps", kRgba32, kRgba32, always, always, lookup, lookup, Lifetime::Frame,
+     "light between layers of Frame::lookup, which are then sums"},
     {"row depths", kRgba32, kUnorm4, floatRows, always, groups, drawnGroups, Lifetime::ComparedRows,
      "the shadow map along each slice", "row depths"},
     {"row shares", kUnorm4, kUnorm2, glass, shares, groups, drawnGroups, Lifetime::ComparedRows,

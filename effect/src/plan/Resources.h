@@ -59,6 +59,7 @@ enum class Resource {
   EpipolarInscatter,
   Unserved,
   UnservedTiles,
+  LookupSteps,
   RowDepths,
   RowShares,
   RowNodes,
@@ -122,8 +123,10 @@ struct Extent {
   bool coloured = true;              ///< three channels of radiance
   bool floatRows = true;             ///< depths of rows in 32 bits, not in 16
   bool glass = false;
-  bool shares = false; ///< a group of texels may be lit in part: filtered or glass
-  bool hashes = false; ///< temporal reuse wants them of rows that have shares
+  bool shares = false;  ///< a group of texels may be lit in part: filtered or glass
+  Size lookup;          ///< texels of a layer of Frame::lookup,
+  int lookupDepths = 0; ///< and its layers
+  bool hashes = false;  ///< temporal reuse wants them of rows that have shares
 };
 
 struct TexelFormat {

@@ -82,6 +82,13 @@ bool same(const AmbientKey& a, const AmbientKey& b) {
          (now.texture == 0 || isStated(now.version, last.version));
 }
 
+bool same(const Lookup& a, const Lookup& b) {
+  const auto fieldsOf = [](const Lookup& l) {
+    return std::tie(l.inscatter, l.transmittance, l.nearDistance, l.farDistance);
+  };
+  return fieldsOf(a) == fieldsOf(b);
+}
+
 bool sameFrame(const FrameKey& a, const FrameKey& b) {
   return same(a.block, b.block) && fieldsOf(a.settings) == fieldsOf(b.settings) && a.drawn == b.drawn &&
          a.slicesBeyond == b.slicesBeyond;

@@ -48,6 +48,7 @@ struct FrameKey {
   blocks::FrameBlock block{}; ///< but for the jitter
   glm::vec2 jitter{0};
   AmbientKey ambient;
+  Lookup lookup;
   double slicesBeyond = 0; ///< pixels beyond the image
   Settings settings;
   std::vector<std::size_t> drawn; ///< indices of the lights
@@ -58,6 +59,7 @@ bool same(const LightKey& a, const LightKey& b);
 /// True if maps are copied in the same way, or not.
 bool sameCopies(const LightKey& a, const LightKey& b);
 bool same(const AmbientKey& a, const AmbientKey& b);
+bool same(const Lookup& a, const Lookup& b);
 /// But for the lights' own, the surroundings' and the jitter.
 bool sameFrame(const FrameKey& a, const FrameKey& b);
 

@@ -1,5 +1,5 @@
-#include "optics/Ambient.h"
 #include "optics/Jitter.h"
+#include "passes/Lookup.h"
 #include "passes/Unwarp.h"
 #include "plan/PlanFrame.h"
 #include "reuse/Redrawing.h"
@@ -62,7 +62,8 @@ Destination FramePlanner::keptDestination() const {
 FrameKey FramePlanner::keyOf(const std::vector<DrawnLight>& drawn) const {
   FrameKey key{out_.plan.block<blocks::FrameBlock>(passes_.frameBlock),
                {},
-               {optics::ambientBlock(frame_, in_.textures.occlusion), frame_.ambient.occlusion},
+               ambientKey(),
+               frame_.lookup,
                optics::slicesBeyond(frame_.camera),
                frame_.settings,
                {},
@@ -88,10 +89,13 @@ void FramePlanner::planReused(const std::vector<DrawnLight>& drawn, RedrawPlan r
   KeptNext next{
       {redraw.key, depthOf(frame_), frame_.reuse.frame, eye.last && eye.last->hasDepth, frame_.camera}, {}, {}};
   Redraw picture = redraw.picture;
+  const bool looksUp = in_.textures.lookup.depths > 0;
   if (picture != Redraw::Nothing) planDepth();
+  if (picture != Redraw::Nothing && looksUp) passes::lookup::begin(passes_);
   Mask mask;
   if (picture == Redraw::Nothing) {
     out_.plan.skip("lights", "nothing has changed: the last frame's picture is shown");
+    if (looksUp) out_.plan.skip(rowOf(Pass::LookupSums).name, "nothing has changed: the textures are left alone");
     next.count.segments = 1;
   } else if (drawsInParts(frame_) && !drawn.empty()) {
     mask = planParts(drawn, redraw, next);
@@ -102,6 +106,7 @@ void FramePlanner::planReused(const std::vector<DrawnLight>& drawn, RedrawPlan r
   if (next.lights.empty())
     for (const LightRedraw& light : redraw.lights)
       next.lights.emplace_back(light.index, carriedOver(*eye.lights[light.index], light));
+  finishLookup();
   next.count.mayReuse = redraw.mayReuse;
   out_.next = std::move(next);
   copyToOutput(to.inscatter, inscatter_.texture);
@@ -136,6 +141,7 @@ FramePlanner::Mask FramePlanner::planParts(const std::vector<DrawnLight>& drawn,
     light->firstLight = light == lights.front() && !ambient;
     use(mask, *light);
     passes::unwarp::plan(*light);
+    if (passes_.fillsLookup) passes::lookup::addLight(*light, true);
   }
   next.count = std::move(redrawing.count);
   return mask;

@@ -44,7 +44,8 @@ RedrawPlan planRedraw(const KeptEye& eye, FrameKey key, const Frame& frame) {
   bool all = !eye.last || !sameFrame(key, eye.last->key) || (!detects && !eye.isFollowedBy(frame));
   all = all || (!sameDepth && (!inParts || !eye.last->hasDepth));
   // Every pixel, but no slice.
-  const bool pixels = !all && (key.jitter != eye.last->key.jitter || !same(key.ambient, eye.last->key.ambient));
+  const bool pixels = !all && (key.jitter != eye.last->key.jitter || !same(key.ambient, eye.last->key.ambient) ||
+                               !same(key.lookup, eye.last->key.lookup));
   bool part = !sameDepth;
   for (std::size_t i = 0; i < key.drawn.size(); ++i) {
     plan.lights.push_back(planLight(eye, key, i, frame, !all));

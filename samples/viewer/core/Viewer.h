@@ -119,6 +119,7 @@ public:
   double sceneMilliseconds() const { return sceneMilliseconds_; } ///< of maps and surfaces, in the last frame
   double exposureStops() const;                                   ///< that is shown
 
+  tyndall::Ambient sceneAmbient() const { return drawer_ ? drawer_->ambientOf(settings::State()) : tyndall::Ambient(); }
   const tyndall::Medium& sceneMedium() const { return sceneMedium_; } ///< in place of which a state may have another
 
   /// The last message, once.

@@ -116,15 +116,15 @@ void drawAmbient(Viewer& viewer) {
     state.ambient.reset();
     return viewer.edit("reset ambient", state);
   }
-  const host::Scene* scene = viewer.scene();
-  tyndall::Ambient ambient = state.ambient.value_or(scene && scene->ambient ? *scene->ambient : tyndall::Ambient());
-  settings::Table<tyndall::Ambient> radiance = settings::ambientTable(), harmonics = radiance;
-  radiance.rows.erase(radiance.rows.begin() + 1, radiance.rows.end());
-  harmonics.rows.erase(harmonics.rows.begin());
+  tyndall::Ambient ambient = state.ambient.value_or(viewer.sceneAmbient());
+  const settings::Table<tyndall::Ambient>& table = settings::ambientTable();
+  std::vector<std::string> harmonics;
+  for (const auto& row : table.rows)
+    if (row.field != "radiance") harmonics.push_back(row.field);
   std::string edited;
-  editRows(radiance, ambient, tyndall::Ambient(), edited);
+  editRows(table, ambient, tyndall::Ambient(), edited, harmonics);
   if (ImGui::TreeNode("by its side: spherical harmonics")) {
-    editRows(harmonics, ambient, tyndall::Ambient(), edited);
+    editRows(table, ambient, tyndall::Ambient(), edited, {"radiance"});
     ImGui::TreePop();
   }
   if (edited.empty()) return;

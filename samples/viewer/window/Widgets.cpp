@@ -106,8 +106,8 @@ bool editThree(const Row& row, Value& value) {
                                             isColour ? &least : nullptr, isColour ? &most : nullptr, "%.3g");
   if (!isColour) return isChanged;
   const double scale = size > 0 ? 1 / size : 0;
-  const ImVec4 hue(static_cast<float>(scale * value[0]), static_cast<float>(scale * value[1]),
-                   static_cast<float>(scale * value[2]), 1);
+  const ImVec4 hue(static_cast<float>(scale * std::abs(value[0])), static_cast<float>(scale * std::abs(value[1])),
+                   static_cast<float>(scale * std::abs(value[2])), 1);
   ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
   ImGui::ColorButton("##hue", hue, ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop);
   return isChanged;

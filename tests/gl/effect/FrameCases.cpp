@@ -14,6 +14,8 @@ namespace tests {
 
 namespace {
 
+constexpr int kLookupWidth = 6, kLookupHeight = 4, kLookupDepths = 5;
+
 constexpr float kBefore = 0.25F; // in all channels of all targets
 constexpr FrameTargets kColour{true, false, false}, kBoth{false, true, true}, kInscatter{false, true, false},
     kTransmittance{false, false, true}, kAll{true, true, true}, kColourInscatter{true, true, false},
@@ -94,8 +96,21 @@ void addInputs(std::vector<FrameCase>& all) {
   all.push_back(
       make("epipolar, ambient light, height fog, two lights, all targets", Technique::Epipolar, kAll, {kSun, kSpot}));
   all.back().ambient = all.back().fog = true;
+  FrameCase lookup = make("epipolar, look-up, two lights", Technique::Epipolar, kColour, {kSun, kSpot});
+  lookup.lookup = lookup.ambient = true;
+  all.push_back(lookup);
+  lookup = make("tree, look-up, lamp in parts", Technique::Tree, kColour, {kLamp});
+  lookup.lookup = true;
+  lookup.maxTextureSize = 64;
+  all.push_back(lookup);
+  lookup = make("low rank, look-up, glass", Technique::LowRank);
+  lookup.lookup = lookup.glass = true;
+  all.push_back(lookup);
   FrameCase bright = make("epipolar, sum over what colour holds", Technique::Epipolar, kAll, {kSun, kSpot});
   bright.bright = true;
+  all.push_back(bright);
+  bright = make("epipolar, sun and surroundings over what colour holds", Technique::Epipolar, kAll);
+  bright.bright = bright.ambient = true;
   all.push_back(bright);
   FrameCase samples = make("exact, multisampled depth", Technique::Exact);
   samples.multisampled = true;
@@ -159,6 +174,8 @@ void addReuse(std::vector<FrameCase>& all) {
   all.push_back(reusing("detect, first frame", Changes::Detect, 0, Motion::Box));
   all.push_back(reusing("detect, a part", Changes::Detect, 1, Motion::Box));
   all.push_back(reusing("detect, third frame", Changes::Detect, 2, Motion::Box));
+  all.push_back(reusing("detect, a part, look-up, ambient light", Changes::Detect, 1, Motion::Box));
+  all.back().lookup = all.back().ambient = true;
   all.push_back(reusing("detect, nothing", Changes::Detect, 1, Motion::None));
   all.push_back(reusing("objects, first frame", Changes::Objects, 0, Motion::Box));
   all.push_back(reusing("objects, a part", Changes::Objects, 1, Motion::Box));
@@ -339,6 +356,12 @@ Stage::Stage(const FrameCase& frameCase, int width, int height, RigContext conte
     occlusion_ = floatTexture(GL_R32F, 3, 2, {0, 0.25F, 1, 0.75F, 0.5F, 1});
     frame.ambient.occlusion = {occlusion_.name(), 1};
   }
+  if (case_.lookup) {
+    const std::vector<float> none(static_cast<std::size_t>(4 * kLookupWidth * kLookupHeight * kLookupDepths));
+    for (host::GlTexture* texture : {&lookupLight_, &lookupPassed_})
+      *texture = floatTextureArray(GL_RGBA32F, kLookupWidth, kLookupHeight, kLookupDepths, none);
+    frame.lookup = {lookupLight_.name(), lookupPassed_.name(), 1, 30};
+  }
   if (case_.spread) settings.spreadThreshold = 0.02F;
   if (case_.chosen) settings.errorTarget = 0.02F;
   if (case_.multisampled) {
@@ -428,6 +451,14 @@ void Stage::rest() {
 }
 
 void Stage::fill() {
+  const std::vector<float> none(static_cast<std::size_t>(4 * kLookupWidth * kLookupHeight * kLookupDepths));
+  for (const host::GlTexture* texture : {&lookupLight_, &lookupPassed_}) {
+    if (!case_.lookup) continue;
+    gl().BindTexture(GL_TEXTURE_2D_ARRAY, texture->name());
+    gl().TexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, kLookupWidth, kLookupHeight, kLookupDepths, GL_RGBA, GL_FLOAT,
+                       none.data());
+    gl().BindTexture(GL_TEXTURE_2D_ARRAY, 0);
+  }
   for (const host::GlTexture* texture : {&colour_, &inscatter_, &transmittance_}) {
     if (case_.layered) {
       gl().BindTexture(GL_TEXTURE_2D_ARRAY, texture->name());
@@ -447,6 +478,9 @@ TargetContents Stage::read() const {
   for (const host::GlTexture* texture : {&colour_, &inscatter_, &transmittance_})
     contents.push_back(case_.layered ? host::readColourArray(texture->name(), targetWidth_, targetHeight_, 1)
                                      : host::readColour(texture->name(), targetWidth_, targetHeight_));
+  for (const host::GlTexture* texture : {&lookupLight_, &lookupPassed_})
+    for (int layer = 0; case_.lookup && layer < kLookupDepths; ++layer)
+      contents.push_back(host::readColourArray(texture->name(), kLookupWidth, kLookupHeight, layer));
   return contents;
 }
 

@@ -25,8 +25,8 @@ struct FrameCase {
   FrameTargets targets = {};
   std::vector<tyndall::LightKind> lights = {tyndall::LightKind::Directional};
   tyndall::DebugView view = tyndall::DebugView::Composite;
-  bool glass = false, bilinear = false, curves = false, fog = false, ambient = false, spread = false, chosen = false,
-       bright = false, multisampled = false, versionedMesh = false;
+  bool glass = false, bilinear = false, curves = false, fog = false, ambient = false, lookup = false, spread = false,
+       chosen = false, bright = false, multisampled = false, versionedMesh = false;
   bool elsewhere = false; ///< the viewport is a part of larger textures, and of the depth not each pixel has a texel
   bool layered = false;   ///< targets are layers of arrays
   tyndall::Changes changes = tyndall::Changes::Unknown;
@@ -51,7 +51,7 @@ tyndall::Config configFor(const FrameCase& frameCase, tyndall::GlLoader loader,
 /// True if the context can draw it: curves need OpenGL 4.3, arrays of cube maps 4.0.
 bool canDraw(const FrameCase& frameCase);
 
-/// Colour, inscatter and transmittance, as they are, wanted or not.
+/// Colour, inscatter and transmittance, as they are, wanted or not; the layers of a look-up, if the case has one.
 using TargetContents = std::vector<std::vector<float>>;
 
 /// An engine with a frame of a case.
@@ -93,7 +93,7 @@ private:
   int number_ = 0;
   tyndall::Light plain_; ///< the first light, with its maps in an array
   std::optional<LaidMaps> laid_;
-  host::GlTexture colour_, inscatter_, transmittance_, occlusion_;
+  host::GlTexture colour_, inscatter_, transmittance_, occlusion_, lookupLight_, lookupPassed_;
   host::GlBuffer vertices_;
 };
 

@@ -42,6 +42,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/KeptProgramsTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/LegacyState.cpp
   ${CMAKE_CURRENT_LIST_DIR}/LegacyTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/LookupTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/LowRankTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MapCopyTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/MapEncodingTest.cpp

@@ -104,6 +104,9 @@ void makeLayers(Case& made, const AxisSet& simple) {
 void makeAmbient(Case& made, const AxisSet& simple) {
   if (simple.has(Axis::Ambient)) return;
   Random random(made.seed, Axis::Ambient), family = Random::ofFamily(made.seed, Axis::Ambient);
+  made.frame.medium.dimsBackground = !random.chance(0.1);
+  for (Light& light : made.frame.lights)
+    if (random.chance(0.1)) light.scatteringScale = static_cast<float>(random.logUniform(0.1, 10));
   if (!family.chance(0.33)) return;
   const double bright = random.logUniform(1e-3, 10);
   for (float& channel : made.frame.ambient.radiance)

@@ -51,6 +51,8 @@ Extent randomExtent(std::mt19937& random) {
   e.rows = e.slices * within(1, views);
   e.curveCells = within(1, 512);
   e.mapCopy = {within(1, 4096), within(1, 4096), views};
+  e.lookup = {within(1, 512), within(1, 512)};
+  e.lookupDepths = within(2, 64);
   e.terms = within(1, 8);
   e.lowRankSets = within(1, 2) == 1 ? 1 : e.slices;
   e.tintLevel = within(0, 2);

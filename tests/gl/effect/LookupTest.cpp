@@ -1,0 +1,333 @@
+// Frame::lookup: light and transmittance up to a set of distances against exact that is cut there, what shaders make of
+// it (shaftsLookupSource), and when it is left alone.
+#include "ReuseRig.h"
+#include "ShaftRig.h"
+#include "gl/ReadBack.h"
+#include "reference/Metrics.h"
+#include "support/Catch.h"
+#include "support/EffectRig.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace tyndall;
+using host::gl;
+
+namespace {
+
+constexpr int kWidth = 96, kHeight = 64;
+constexpr double kNear = 0.5, kFar = 40;
+
+struct Layers {
+  host::GlTexture inscatter, transmittance;
+  int width, height, depths;
+
+  Layers(int w, int h, int count, GLenum format = GL_RGBA32F)
+      : inscatter(tests::floatTextureArray(format, w, h, count, std::vector<float>(texels(w, h, count), 7))),
+        transmittance(tests::floatTextureArray(format, w, h, count, std::vector<float>(texels(w, h, count), 7))),
+        width(w), height(h), depths(count) {}
+  static std::size_t texels(int w, int h, int count) { return static_cast<std::size_t>(4 * w * h * count); }
+
+  void enter(Frame& frame) const { frame.lookup = {inscatter.name(), transmittance.name(), kNear, kFar}; }
+  double distance(int layer) const { return kNear * std::pow(kFar / kNear, layer / (depths - 1.0)); }
+  reference::Image light(int layer) const {
+    return {width, height, host::readColourArray(inscatter.name(), width, height, layer, 3)};
+  }
+  reference::Image passed(int layer) const {
+    return {width, height, host::readColourArray(transmittance.name(), width, height, layer, 3)};
+  }
+};
+
+// The frame as if a surface stood at a distance from the eye in each pixel.
+reference::ImageAnswer cutAt(tests::SceneRig& rig, double distance, Technique technique = Technique::Exact) {
+  const Frame frame = rig.frame;
+  const auto pixels = static_cast<std::size_t>(frame.viewport.width * frame.viewport.height);
+  const host::GlTexture depth = tests::floatTexture(GL_R32F, frame.viewport.width, frame.viewport.height,
+                                                    std::vector<float>(pixels, static_cast<float>(distance)));
+  rig.frame.depth = {};
+  rig.frame.depth.texture = depth.name();
+  rig.frame.depth.encoding = DepthEncoding::Radial;
+  rig.frame.settings.technique = technique;
+  rig.frame.lookup = {};
+  const reference::ImageAnswer answer = rig.render();
+  rig.frame = frame;
+  return answer;
+}
+
+Medium haze() {
+  Medium medium;
+  medium.constituents = {{{0.03F, 0.04F, 0.05F}, Phase::HenyeyGreenstein, 0.6F}};
+  medium.farDistance = 60;
+  return medium;
+}
+
+Medium layered() {
+  Medium medium = haze();
+  medium.layers = {{0, 1.5, -0.5}};
+  medium.constituents.push_back({{0.06F, 0.06F, 0.06F}, Phase::Rayleigh, 0, 0});
+  return medium;
+}
+
+// Most of an image is there to be compared.
+double meanOf(const reference::Image& image) {
+  double sum = 0;
+  for (const double value : image.rgb)
+    sum += value;
+  return sum / static_cast<double>(image.rgb.size());
+}
+
+bool isDrawn(const Statistics& statistics, const std::string& name) {
+  return std::any_of(statistics.passes.begin(), statistics.passes.end(),
+                     [&](const PassStatistics& pass) { return pass.name == name && pass.skipped.empty(); });
+}
+
+} // namespace
+
+TEST_CASE("layers of a look-up are exact's picture cut at their distances: every light, filter, glass, technique",
+          "[sweep]") {
+  for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot})
+    for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear})
+      for (const bool glass : {false, true}) {
+        if (glass && filter == ShadowFilter::Bilinear) continue;
+        tests::ShaftRig rig(kWidth, kHeight);
+        rig.addLight(tests::shaftLight(kind), 128, glass);
+        Frame& frame = rig.scene.frame;
+        frame.settings.shadowFilter = filter;
+        frame.medium = glass ? layered() : haze();
+        const Layers layers(kWidth, kHeight, 12);
+        for (const int layer : {6, 10}) {
+          const reference::Image truth = cutAt(rig.scene, layers.distance(layer)).inscatter;
+          // As the tree has it, whose slices are up to half a pixel, and rows half a texel, from a pixel's ray.
+          const double tree =
+              reference::compare(cutAt(rig.scene, layers.distance(layer), Technique::Tree).inscatter, truth).rRmse;
+          for (const Technique technique : {Technique::Tree, Technique::Epipolar, Technique::LowRank}) {
+            frame.settings.technique = technique;
+            layers.enter(frame);
+            rig.scene.render();
+            CAPTURE(static_cast<int>(kind), static_cast<int>(filter), glass, layer, static_cast<int>(technique), tree);
+            CHECK(meanOf(truth) > 0);
+            CHECK(tree < 0.2);
+            CHECK(reference::compare(layers.light(layer), truth).rRmse <= 1.1 * tree + 1e-3);
+          }
+        }
+      }
+}
+
+TEST_CASE(
+    "a look-up's transmittance, light without maps and ambient light are exact's to rounding, through layers too") {
+  for (const bool fog : {false, true})
+    for (const bool mapped : {false, true}) {
+      tests::SceneRig rig(24, 16);
+      if (mapped) rig.addLight(LightKind::Spot, tests::Casters::AllLit);
+      rig.addLight(LightKind::Point, tests::Casters::None);
+      rig.addLight(LightKind::Directional, tests::Casters::None);
+      rig.frame.medium = fog ? layered() : haze();
+      rig.frame.ambient.radiance = {0.5F, 0.6F, 0.7F};
+      rig.frame.ambient.harmonics[1] = {0.2F, 0.2F, 0.2F};
+      rig.frame.settings.technique = Technique::Tree;
+      const Layers layers(24, 16, 32);
+      layers.enter(rig.frame);
+      rig.render();
+      for (int layer = 0; layer < 32; layer += 5) {
+        const reference::ImageAnswer truth = cutAt(rig, layers.distance(layer));
+        CAPTURE(fog, mapped, layer);
+        CHECK(tests::difference(layers.light(layer), truth.inscatter) <= 2e-4);
+        CHECK(tests::difference(layers.passed(layer), truth.transmittance) <= 1e-6);
+      }
+    }
+}
+
+TEST_CASE("cascades that fade, and the faces of a lamp, come into a look-up whole") {
+  tests::ShaftRig rig(kWidth, kHeight);
+  Light sun = tests::shaftLight(LightKind::Directional);
+  sun.shadow.views = tests::shadowViews(sun, 3);
+  sun.cascadeFade = 0.2;
+  rig.addLight(sun, 128);
+  rig.addLight(tests::shaftLight(LightKind::Point), 128);
+  Frame& frame = rig.scene.frame;
+  frame.medium = haze();
+  frame.settings.technique = Technique::Epipolar;
+  const Layers layers(kWidth, kHeight, 9);
+  layers.enter(frame);
+  rig.scene.render();
+  const reference::Image got = layers.light(7);
+  const reference::Image truth = cutAt(rig.scene, layers.distance(7)).inscatter;
+  const double tree = reference::compare(cutAt(rig.scene, layers.distance(7), Technique::Tree).inscatter, truth).rRmse;
+  CAPTURE(tree);
+  CHECK(reference::compare(got, truth).rRmse <= 1.1 * tree + 1e-3);
+}
+
+namespace {
+
+const char* const kVertex = R"(#version 330 core
+out float unused;
+void main() {
+  unused = 0.0;
+  gl_Position = vec4(vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) * 2.0 - 1.0, 0.0, 1.0);
+})";
+
+// What a surface at a distance would be given, all over the viewport.
+reference::ImageAnswer drawnAt(const Layers& layers, double distance, int width, int height) {
+  const std::string fragment = std::string("#version 330 core\n") + shaftsLookupSource() + R"(
+uniform float distanceHere;
+layout(location = 0) out vec4 inscatter;
+layout(location = 1) out vec4 transmittance;
+void main() {
+  TyndallShafts shafts = tyndallShafts(gl_FragCoord.xy, distanceHere);
+  inscatter = vec4(shafts.inscatter, 1.0);
+  transmittance = vec4(shafts.transmittance, 1.0);
+})";
+  host::Program program("look-up", kVertex, fragment.c_str());
+  const host::GlTexture light = host::makeTexture2D(GL_RGBA32F, width, height),
+                        passed = host::makeTexture2D(GL_RGBA32F, width, height);
+  const host::GlFramebuffer target = host::makeFramebuffer();
+  gl().BindFramebuffer(GL_FRAMEBUFFER, target.name());
+  gl().FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, light.name(), 0);
+  gl().FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, passed.name(), 0);
+  const GLenum buffers[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  gl().DrawBuffers(2, buffers);
+  gl().Viewport(0, 0, width, height);
+  const host::GlVertexArray vertices = host::makeVertexArray();
+  gl().BindVertexArray(vertices.name());
+  program.use();
+  program.set("tyndallViewport", glm::vec4(0, 0, width, height));
+  program.set("tyndallDistances", glm::vec2(kNear, kFar));
+  program.set("distanceHere", static_cast<float>(distance));
+  program.set("tyndallInscatter", 0);
+  program.set("tyndallTransmittance", 1);
+  GLenum unit = GL_TEXTURE0;
+  for (const host::GlTexture* texture : {&layers.inscatter, &layers.transmittance}) {
+    gl().ActiveTexture(unit++);
+    gl().BindTexture(GL_TEXTURE_2D_ARRAY, texture->name());
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+      gl().TexParameteri(GL_TEXTURE_2D_ARRAY, filter, GL_LINEAR);
+    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+      gl().TexParameteri(GL_TEXTURE_2D_ARRAY, wrap, GL_CLAMP_TO_EDGE);
+  }
+  gl().Disable(GL_BLEND);
+  gl().DrawArrays(GL_TRIANGLES, 0, 3);
+  gl().ActiveTexture(GL_TEXTURE0);
+  gl().BindFramebuffer(GL_FRAMEBUFFER, 0);
+  return {{width, height, host::readColour(light.name(), width, height, 3)},
+          {width, height, host::readColour(passed.name(), width, height, 3)}};
+}
+
+} // namespace
+
+TEST_CASE("what a shader looks up at any distance is what a frame that ends there has") {
+  tests::ShaftRig rig(kWidth, kHeight);
+  rig.addLight(tests::shaftLight(LightKind::Directional), 128);
+  Frame& frame = rig.scene.frame;
+  frame.medium = haze();
+  frame.settings.technique = Technique::Epipolar;
+  const Layers layers(kWidth, kHeight, 32);
+  layers.enter(frame);
+  rig.scene.render();
+  const reference::Image last = drawnAt(layers, kFar, kWidth, kHeight).inscatter;
+  for (const double distance : {0.2, 0.5, 1.7, 5.3, 13.0, 39.9}) {
+    const reference::ImageAnswer truth = cutAt(rig.scene, distance), tree = cutAt(rig.scene, distance, Technique::Tree);
+    const reference::ImageAnswer got = drawnAt(layers, distance, kWidth, kHeight);
+    const double floor = reference::compare(tree.inscatter, truth.inscatter).rRmse;
+    CAPTURE(distance, floor);
+    CHECK(reference::compare(got.inscatter, truth.inscatter).rRmse <= 1.1 * floor + 0.01);
+    CHECK(tests::difference(got.transmittance, truth.transmittance) <= 5e-3);
+  }
+  CHECK(drawnAt(layers, 1e9, kWidth, kHeight).inscatter.rgb == last.rgb);
+  const reference::ImageAnswer atEye = drawnAt(layers, 0, kWidth, kHeight);
+  CHECK(meanOf(atEye.inscatter) == 0);
+  CHECK(meanOf(atEye.transmittance) == 1);
+}
+
+TEST_CASE("a look-up of few texels is about as bright as one of many, whatever its size and format") {
+  tests::ShaftRig rig(kWidth, kHeight);
+  rig.addLight(tests::shaftLight(LightKind::Spot), 128);
+  Frame& frame = rig.scene.frame;
+  frame.medium = haze();
+  frame.settings.technique = Technique::Epipolar;
+  const double truth = meanOf(cutAt(rig.scene, kFar).inscatter);
+  for (const auto& [width, height, depths] :
+       {std::tuple{32, 20, 2}, std::tuple{200, 133, 3}, std::tuple{48, 32, 64}, std::tuple{96, 64, 17}})
+    for (const GLenum format : {GL_RGBA16F, GL_R11F_G11F_B10F}) {
+      const Layers layers(width, height, depths, format);
+      layers.enter(frame);
+      rig.scene.render();
+      CAPTURE(width, height, depths, format);
+      CHECK(meanOf(layers.light(depths - 1)) == Approx(truth).epsilon(0.06));
+    }
+  const Layers one(1, 1, 2); // a single ray
+  one.enter(frame);
+  rig.scene.render();
+  CHECK(std::isfinite(meanOf(one.light(1))));
+}
+
+TEST_CASE("a frame with a look-up is the frame without one, and where nothing is added the look-up is empty") {
+  tests::SceneRig rig = tests::threeLights();
+  rig.frame.medium = haze();
+  for (const Technique technique : {Technique::Tree, Technique::Epipolar, Technique::LowRank}) {
+    rig.frame.settings.technique = technique;
+    rig.frame.lookup = {};
+    const reference::ImageAnswer without = rig.render();
+    const Layers layers(16, 16, 8);
+    layers.enter(rig.frame);
+    const reference::ImageAnswer with = rig.render();
+    CAPTURE(static_cast<int>(technique));
+    CHECK(with.inscatter.rgb == without.inscatter.rgb);
+    CHECK(with.transmittance.rgb == without.transmittance.rgb);
+    CHECK(isDrawn(tests::testEffect().statistics(), "light 0 look-up"));
+  }
+  const Layers layers(16, 16, 8);
+  layers.enter(rig.frame);
+  rig.frame.lights.clear();
+  rig.render();
+  CHECK(meanOf(layers.light(7)) == 0);
+  CHECK(meanOf(layers.passed(7)) < 1);
+  rig.frame.medium = {}; // clear air, and nowhere to draw to but colour
+  const std::vector<float> back(static_cast<std::size_t>(4 * rig.frame.viewport.width * rig.frame.viewport.height),
+                                0.5F);
+  const host::GlTexture colour = rig.makeColour(GL_RGBA32F, back);
+  rig.frame.output = {};
+  const Layers clear(16, 16, 8);
+  clear.enter(rig.frame);
+  REQUIRE(tests::testEffect().render(rig.frame));
+  CHECK(meanOf(clear.light(7)) == 0);
+  CHECK(meanOf(clear.passed(0)) == 1);
+  CHECK(host::readColour(colour.name(), rig.frame.viewport.width, rig.frame.viewport.height) == back);
+}
+
+TEST_CASE("under reuse a look-up is that of a frame in full, and where nothing has changed it is left alone") {
+  for (const Changes changes : {Changes::Detect, Changes::Objects}) {
+    tests::ShaftRig rig = tests::reuse::sunlit(changes);
+    rig.addLight(tests::reuse::spot(), 64);
+    rig.scene.frame.lights[1].shadow.version = 7;
+    Frame& frame = rig.scene.frame;
+    frame.medium = haze();
+    const Layers kept(64, 48, 8), whole(64, 48, 8);
+    for (int i = 0; i < 4; ++i) {
+      CAPTURE(static_cast<int>(changes), i);
+      tests::reuse::moveTo(rig, i);
+      ++frame.depth.version;
+      for (Light& light : frame.lights)
+        ++light.shadow.version;
+      kept.enter(frame);
+      const tests::reuse::Picture picture = tests::reuse::reused(rig);
+      whole.enter(frame);
+      tests::reuse::full(rig);
+      CHECK(tests::difference(kept.light(6), whole.light(6)) <= 1e-5);
+      if (i > 1) CHECK((picture.share > 0 && picture.share < 1));
+    }
+    kept.enter(frame);
+    ++frame.reuse.frame;
+    frame.objects.clear();
+    rig.scene.render();
+    const reference::Image last = kept.light(6);
+    ++frame.reuse.frame;
+    rig.scene.render();
+    CHECK_FALSE(isDrawn(tests::testEffect().statistics(), "look-up"));
+    CHECK(kept.light(6).rgb == last.rgb);
+    whole.enter(frame); // other textures: nothing is in them
+    ++frame.reuse.frame;
+    rig.scene.render();
+    CHECK(isDrawn(tests::testEffect().statistics(), "look-up"));
+    CHECK(tests::difference(whole.light(6), last) <= 1e-6);
+  }
+}
