@@ -191,6 +191,7 @@ const std::vector<Left>& leftToEngines() {
       {"Frame.ambient", "ambientTable()"},
       {"Frame.settings", "settingsTable()"},
       {"Frame.output", texture},
+      {"Frame.lookup", texture},
       {"Frame.reuse", "reuseTable()"},
       {"Frame.objects", "what the engine moved"},
       {"Medium.constituents", "a list of constituentTable()"},

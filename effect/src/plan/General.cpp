@@ -67,8 +67,7 @@ bool hasProgramsForOneLayer(std::string_view fragment, const Values& values) {
 // Lights without a map, a medium with layers, low rank, the debug view of visits, pixels marched between slices or
 // where shares of the light do not tell, mixtures, and look-ups.
 bool isSeldom(std::string_view fragment, const Values& values) {
-  if (isOneOf(fragment, {"lookupLight"})) return true;
-  if (!isOneOf(fragment, {"exact", "fixup", "march", "marchExtra", "pixelTree"})) return values["ROW_HASHES"] != 0;
+  if (!isOneOf(fragment, {"exact", "fixup", "lookupLight", "march", "marchExtra", "pixelTree"})) return values["ROW_HASHES"] != 0;
   if (values["SHADOW_VIEWS"] == 0) return true;
   return isOneOf(fragment, {"fixup"}) || values["HEIGHT"] == kAnyLayers || values["LOW_RANK"] != 0 ||
          values["COUNT_VISITS"] != 0 || values["SHARES"] != 0 || (isMixture(values) && !isOfSunbeams(fragment, values));
@@ -107,7 +106,7 @@ void chooseMaps(std::string_view fragment, Values values) {
 gl::Definitions general(const std::string& fragment, gl::Definitions definitions) {
   Values values(definitions);
   if (!seesLayers(fragment, values)) values.set("HEIGHT", kNoLayers);
-  if (isOneOf(fragment, {"ambient", "lookupAmbient", "lookupLight", "lookupTransmittance", "transmittance"}))
+  if (isOneOf(fragment, {"ambient", "lookupAmbient", "lookupTransmittance", "transmittance"}))
     values.set("MONOCHROME", 0);
   if (values["HEIGHT"] == kOnlyLayer && values["LIGHT_KIND"] != 0) values.set("HEIGHT", kOneLayer);
   if (isOneOf(fragment, {"ambient", "lookupAmbient"})) // which no map blocks

@@ -1,42 +1,24 @@
 // Frame::lookup: light and transmittance up to a set of distances against exact that is cut there, what shaders make of
 // it (shaftsLookupSource), and when it is left alone.
+#include "RefusalRig.h"
 #include "ReuseRig.h"
 #include "ShaftRig.h"
 #include "gl/ReadBack.h"
 #include "reference/Metrics.h"
 #include "support/Catch.h"
 #include "support/EffectRig.h"
+#include "support/ShaftsLookup.h"
 
 #include <algorithm>
 #include <cmath>
 
 using namespace tyndall;
-using host::gl;
 
 namespace {
 
 constexpr int kWidth = 96, kHeight = 64;
-constexpr double kNear = 0.5, kFar = 40;
-
-struct Layers {
-  host::GlTexture inscatter, transmittance;
-  int width, height, depths;
-
-  Layers(int w, int h, int count, GLenum format = GL_RGBA32F)
-      : inscatter(tests::floatTextureArray(format, w, h, count, std::vector<float>(texels(w, h, count), 7))),
-        transmittance(tests::floatTextureArray(format, w, h, count, std::vector<float>(texels(w, h, count), 7))),
-        width(w), height(h), depths(count) {}
-  static std::size_t texels(int w, int h, int count) { return static_cast<std::size_t>(4 * w * h * count); }
-
-  void enter(Frame& frame) const { frame.lookup = {inscatter.name(), transmittance.name(), kNear, kFar}; }
-  double distance(int layer) const { return kNear * std::pow(kFar / kNear, layer / (depths - 1.0)); }
-  reference::Image light(int layer) const {
-    return {width, height, host::readColourArray(inscatter.name(), width, height, layer, 3)};
-  }
-  reference::Image passed(int layer) const {
-    return {width, height, host::readColourArray(transmittance.name(), width, height, layer, 3)};
-  }
-};
+constexpr double kFar = 40;
+constexpr tests::ShaftsLookup::Range kRange{0.5, kFar};
 
 // The frame as if a surface stood at a distance from the eye in each pixel.
 reference::ImageAnswer cutAt(tests::SceneRig& rig, double distance, Technique technique = Technique::Exact) {
@@ -94,7 +76,7 @@ TEST_CASE("layers of a look-up are exact's picture cut at their distances: every
         Frame& frame = rig.scene.frame;
         frame.settings.shadowFilter = filter;
         frame.medium = glass ? layered() : haze();
-        const Layers layers(kWidth, kHeight, 12);
+        tests::ShaftsLookup layers(kWidth, kHeight, 12, kRange);
         for (const int layer : {6, 10}) {
           const reference::Image truth = cutAt(rig.scene, layers.distance(layer)).inscatter;
           // As the tree has it, whose slices are up to half a pixel, and rows half a texel, from a pixel's ray.
@@ -125,7 +107,7 @@ TEST_CASE(
       rig.frame.ambient.radiance = {0.5F, 0.6F, 0.7F};
       rig.frame.ambient.harmonics[1] = {0.2F, 0.2F, 0.2F};
       rig.frame.settings.technique = Technique::Tree;
-      const Layers layers(24, 16, 32);
+      tests::ShaftsLookup layers(24, 16, 32, kRange);
       layers.enter(rig.frame);
       rig.render();
       for (int layer = 0; layer < 32; layer += 5) {
@@ -147,7 +129,7 @@ TEST_CASE("cascades that fade, and the faces of a lamp, come into a look-up whol
   Frame& frame = rig.scene.frame;
   frame.medium = haze();
   frame.settings.technique = Technique::Epipolar;
-  const Layers layers(kWidth, kHeight, 9);
+  tests::ShaftsLookup layers(kWidth, kHeight, 9, kRange);
   layers.enter(frame);
   rig.scene.render();
   const reference::Image got = layers.light(7);
@@ -157,83 +139,26 @@ TEST_CASE("cascades that fade, and the faces of a lamp, come into a look-up whol
   CHECK(reference::compare(got, truth).rRmse <= 1.1 * tree + 1e-3);
 }
 
-namespace {
-
-const char* const kVertex = R"(#version 330 core
-out float unused;
-void main() {
-  unused = 0.0;
-  gl_Position = vec4(vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) * 2.0 - 1.0, 0.0, 1.0);
-})";
-
-// What a surface at a distance would be given, all over the viewport.
-reference::ImageAnswer drawnAt(const Layers& layers, double distance, int width, int height) {
-  const std::string fragment = std::string("#version 330 core\n") + shaftsLookupSource() + R"(
-uniform float distanceHere;
-layout(location = 0) out vec4 inscatter;
-layout(location = 1) out vec4 transmittance;
-void main() {
-  TyndallShafts shafts = tyndallShafts(gl_FragCoord.xy, distanceHere);
-  inscatter = vec4(shafts.inscatter, 1.0);
-  transmittance = vec4(shafts.transmittance, 1.0);
-})";
-  host::Program program("look-up", kVertex, fragment.c_str());
-  const host::GlTexture light = host::makeTexture2D(GL_RGBA32F, width, height),
-                        passed = host::makeTexture2D(GL_RGBA32F, width, height);
-  const host::GlFramebuffer target = host::makeFramebuffer();
-  gl().BindFramebuffer(GL_FRAMEBUFFER, target.name());
-  gl().FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, light.name(), 0);
-  gl().FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, passed.name(), 0);
-  const GLenum buffers[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-  gl().DrawBuffers(2, buffers);
-  gl().Viewport(0, 0, width, height);
-  const host::GlVertexArray vertices = host::makeVertexArray();
-  gl().BindVertexArray(vertices.name());
-  program.use();
-  program.set("tyndallViewport", glm::vec4(0, 0, width, height));
-  program.set("tyndallDistances", glm::vec2(kNear, kFar));
-  program.set("distanceHere", static_cast<float>(distance));
-  program.set("tyndallInscatter", 0);
-  program.set("tyndallTransmittance", 1);
-  GLenum unit = GL_TEXTURE0;
-  for (const host::GlTexture* texture : {&layers.inscatter, &layers.transmittance}) {
-    gl().ActiveTexture(unit++);
-    gl().BindTexture(GL_TEXTURE_2D_ARRAY, texture->name());
-    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-      gl().TexParameteri(GL_TEXTURE_2D_ARRAY, filter, GL_LINEAR);
-    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
-      gl().TexParameteri(GL_TEXTURE_2D_ARRAY, wrap, GL_CLAMP_TO_EDGE);
-  }
-  gl().Disable(GL_BLEND);
-  gl().DrawArrays(GL_TRIANGLES, 0, 3);
-  gl().ActiveTexture(GL_TEXTURE0);
-  gl().BindFramebuffer(GL_FRAMEBUFFER, 0);
-  return {{width, height, host::readColour(light.name(), width, height, 3)},
-          {width, height, host::readColour(passed.name(), width, height, 3)}};
-}
-
-} // namespace
-
 TEST_CASE("what a shader looks up at any distance is what a frame that ends there has") {
   tests::ShaftRig rig(kWidth, kHeight);
   rig.addLight(tests::shaftLight(LightKind::Directional), 128);
   Frame& frame = rig.scene.frame;
   frame.medium = haze();
   frame.settings.technique = Technique::Epipolar;
-  const Layers layers(kWidth, kHeight, 32);
+  tests::ShaftsLookup layers(kWidth, kHeight, 32, kRange);
   layers.enter(frame);
   rig.scene.render();
-  const reference::Image last = drawnAt(layers, kFar, kWidth, kHeight).inscatter;
+  const reference::Image last = layers.at(kFar, kWidth, kHeight).inscatter;
   for (const double distance : {0.2, 0.5, 1.7, 5.3, 13.0, 39.9}) {
     const reference::ImageAnswer truth = cutAt(rig.scene, distance), tree = cutAt(rig.scene, distance, Technique::Tree);
-    const reference::ImageAnswer got = drawnAt(layers, distance, kWidth, kHeight);
+    const reference::ImageAnswer got = layers.at(distance, kWidth, kHeight);
     const double floor = reference::compare(tree.inscatter, truth.inscatter).rRmse;
     CAPTURE(distance, floor);
     CHECK(reference::compare(got.inscatter, truth.inscatter).rRmse <= 1.1 * floor + 0.01);
     CHECK(tests::difference(got.transmittance, truth.transmittance) <= 5e-3);
   }
-  CHECK(drawnAt(layers, 1e9, kWidth, kHeight).inscatter.rgb == last.rgb);
-  const reference::ImageAnswer atEye = drawnAt(layers, 0, kWidth, kHeight);
+  CHECK(layers.at(1e9, kWidth, kHeight).inscatter.rgb == last.rgb);
+  const reference::ImageAnswer atEye = layers.at(0, kWidth, kHeight);
   CHECK(meanOf(atEye.inscatter) == 0);
   CHECK(meanOf(atEye.transmittance) == 1);
 }
@@ -248,13 +173,13 @@ TEST_CASE("a look-up of few texels is about as bright as one of many, whatever i
   for (const auto& [width, height, depths] :
        {std::tuple{32, 20, 2}, std::tuple{200, 133, 3}, std::tuple{48, 32, 64}, std::tuple{96, 64, 17}})
     for (const GLenum format : {GL_RGBA16F, GL_R11F_G11F_B10F}) {
-      const Layers layers(width, height, depths, format);
+      tests::ShaftsLookup layers(width, height, depths, kRange, format);
       layers.enter(frame);
       rig.scene.render();
       CAPTURE(width, height, depths, format);
       CHECK(meanOf(layers.light(depths - 1)) == Approx(truth).epsilon(0.06));
     }
-  const Layers one(1, 1, 2); // a single ray
+  tests::ShaftsLookup one(1, 1, 2, kRange); // a single ray
   one.enter(frame);
   rig.scene.render();
   CHECK(std::isfinite(meanOf(one.light(1))));
@@ -267,7 +192,7 @@ TEST_CASE("a frame with a look-up is the frame without one, and where nothing is
     rig.frame.settings.technique = technique;
     rig.frame.lookup = {};
     const reference::ImageAnswer without = rig.render();
-    const Layers layers(16, 16, 8);
+    tests::ShaftsLookup layers(16, 16, 8, kRange);
     layers.enter(rig.frame);
     const reference::ImageAnswer with = rig.render();
     CAPTURE(static_cast<int>(technique));
@@ -275,7 +200,7 @@ TEST_CASE("a frame with a look-up is the frame without one, and where nothing is
     CHECK(with.transmittance.rgb == without.transmittance.rgb);
     CHECK(isDrawn(tests::testEffect().statistics(), "light 0 look-up"));
   }
-  const Layers layers(16, 16, 8);
+  tests::ShaftsLookup layers(16, 16, 8, kRange);
   layers.enter(rig.frame);
   rig.frame.lights.clear();
   rig.render();
@@ -286,7 +211,7 @@ TEST_CASE("a frame with a look-up is the frame without one, and where nothing is
                                 0.5F);
   const host::GlTexture colour = rig.makeColour(GL_RGBA32F, back);
   rig.frame.output = {};
-  const Layers clear(16, 16, 8);
+  tests::ShaftsLookup clear(16, 16, 8, kRange);
   clear.enter(rig.frame);
   REQUIRE(tests::testEffect().render(rig.frame));
   CHECK(meanOf(clear.light(7)) == 0);
@@ -301,7 +226,7 @@ TEST_CASE("under reuse a look-up is that of a frame in full, and where nothing h
     rig.scene.frame.lights[1].shadow.version = 7;
     Frame& frame = rig.scene.frame;
     frame.medium = haze();
-    const Layers kept(64, 48, 8), whole(64, 48, 8);
+    tests::ShaftsLookup kept(64, 48, 8, kRange), whole(64, 48, 8, kRange);
     for (int i = 0; i < 4; ++i) {
       CAPTURE(static_cast<int>(changes), i);
       tests::reuse::moveTo(rig, i);
@@ -330,4 +255,48 @@ TEST_CASE("under reuse a look-up is that of a frame in full, and where nothing h
     CHECK(isDrawn(tests::testEffect().statistics(), "look-up"));
     CHECK(tests::difference(whole.light(6), last) <= 1e-6);
   }
+}
+
+TEST_CASE("a look-up that breaks a rule is refused by field") {
+  tests::RefusalRig rig;
+  rig.frame.settings.technique = Technique::Tree;
+  const host::GlTexture good = host::makeTextureArray(GL_RGBA16F, 8, 4, 5);
+  const host::GlTexture other = host::makeTextureArray(GL_RGBA16F, 8, 4, 5);
+  rig.frame.lookup = {good.name(), other.name(), 1, 10};
+  rig.checkAccepted(rig.frame);
+  const auto refused = [&](const auto& change, const std::vector<std::string>& mentions) {
+    Frame broken = rig.frame;
+    change(broken);
+    rig.checkRefused(broken, mentions);
+  };
+  for (const double distance : {0.0, -1.0, std::nan(""), kInfinity, 1e-40, 1e31})
+    refused([&](Frame& f) { f.lookup.nearDistance = distance; }, {"Frame::lookup.nearDistance", "finite and > 0"});
+  for (const double distance : {0.0, 1.0, -2.0, std::nan(""), kInfinity, 1e31})
+    refused([&](Frame& f) { f.lookup.farDistance = distance; }, {"Frame::lookup.farDistance", "> nearDistance"});
+  refused([](Frame& f) { f.settings.technique = Technique::Exact; }, {"Frame::settings.technique", "needs slices"});
+  refused([](Frame& f) { f.lookup.transmittance = f.lookup.inscatter; },
+          {"Frame::lookup.transmittance", "must differ"});
+  const auto replaced = [&](GLenum format, int width, int height, int layers, const std::string& rule) {
+    const host::GlTexture texture = host::makeTextureArray(format, width, height, layers);
+    CAPTURE(format, width, height, layers);
+    refused([&](Frame& f) { f.lookup.transmittance = texture.name(); }, {"Frame::lookup.transmittance", rule});
+    if (rule.find("8 x 4") == std::string::npos && rule.find("lookup.inscatter") == std::string::npos)
+      refused([&](Frame& f) { f.lookup.inscatter = texture.name(); }, {"Frame::lookup.inscatter", rule});
+  };
+  replaced(GL_RGBA8, 8, 4, 5, "must have a float colour format");
+  replaced(GL_R32F, 8, 4, 5, "must have a float colour format");
+  replaced(GL_RGBA16F, 513, 1, 2, "must be 512 x 512 at most");
+  replaced(GL_RGBA16F, 1, 513, 2, "must be 512 x 512 at most");
+  replaced(GL_RGBA16F, 8, 4, 1, "must have 2 to 64");
+  replaced(GL_RGBA16F, 8, 4, 65, "must have 2 to 64");
+  replaced(GL_RGBA16F, 9, 4, 5, "must be 8 x 4");
+  replaced(GL_RGBA16F, 8, 4, 6, "lookup.inscatter 5");
+  const host::GlTexture flat = host::makeTexture2D(GL_RGBA16F, 8, 4);
+  refused([&](Frame& f) { f.lookup.inscatter = flat.name(); },
+          {"Frame::lookup.inscatter", "must be a GL_TEXTURE_2D_ARRAY"});
+  refused([&](Frame& f) { f.lookup.inscatter = 123456789; }, {"Frame::lookup.inscatter", "not the name of a texture"});
+  rig.frame.lookup.transmittance = 0; // one of the two is enough
+  rig.checkAccepted(rig.frame);
+  std::swap(rig.frame.lookup.inscatter, rig.frame.lookup.transmittance);
+  rig.checkAccepted(rig.frame);
 }

@@ -84,6 +84,7 @@ TEST_CASE("every tool refuses wrong usage with two lines and exit code 2") {
       {"tyndall-avsm-bench --scenes fog", "--scenes fog: must be one of"},
       {"tyndall-accuracy --all", "--all"},
       {"tyndall-low-rank ''", "SCENE"},
+      {"tyndall-look-up ''", "SCENE"},
       {"tyndall-shaders --all", "DIR"}}; // no folder of that name
   for (const auto& [command, mention] : cases) {
     const tests::ToolResult result = folder.shell(command);

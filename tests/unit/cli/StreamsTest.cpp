@@ -44,7 +44,8 @@ TEST_CASE("a result that standard output does not take is an error, of every too
                                "tyndall-bench --help",
                                "tyndall-avsm-bench --help",
                                "tyndall-accuracy",
-                               "tyndall-low-rank"};
+                               "tyndall-low-rank",
+                               "tyndall-look-up"};
   for (const std::string& command : cases) {
     INFO(command);
     const tests::ToolResult full = folder.shell(command + " >/dev/full");
