@@ -34,8 +34,9 @@ enum class Axis {
   Relation, ///< by which change the picture must stay
   Layers,   ///< of the medium, that thin out with height
   Ambient,  ///< light of the surroundings
+  Lookup,   ///< Frame::lookup
 };
-inline constexpr int kAxes = static_cast<int>(Axis::Ambient) + 1;
+inline constexpr int kAxes = static_cast<int>(Axis::Lookup) + 1;
 
 const char* nameOf(Axis axis);
 

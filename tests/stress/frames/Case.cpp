@@ -117,6 +117,14 @@ void makeAmbient(Case& made, const AxisSet& simple) {
       channel = static_cast<float>(0.5 * bright * random.uniform(-1, 1));
 }
 
+void makeLookup(Case& made, const AxisSet& simple) {
+  Random random(made.seed, Axis::Lookup);
+  if (simple.has(Axis::Lookup) || !random.chance(0.3)) return;
+  made.lookup = {random.integer(1, 40), random.integer(1, 40), random.integer(2, 12)};
+  made.lookupNear = made.worldScale * random.logUniform(1e-3, 10);
+  made.lookupFar = made.lookupNear * random.logUniform(1.001, 1e4);
+}
+
 void makeSettings(Case& made, const AxisSet& simple) {
   Settings& settings = made.anySettings;
   if (Random random = Random::ofFamily(made.seed, Axis::Filter); !simple.has(Axis::Filter) && random.chance(0.4))
@@ -151,6 +159,7 @@ Case makeCase(std::uint64_t seed, const AxisSet& simple) {
   makeMedium(made, simple);
   makeLayers(made, simple);
   makeAmbient(made, simple);
+  makeLookup(made, simple);
   makeSettings(made, simple);
   if (Random random = Random::ofFamily(seed, Axis::Relation); !simple.has(Axis::Relation))
     made.relation = static_cast<Relation>(random.integer(0, kRelations - 1));

@@ -52,8 +52,10 @@ struct Case {
   std::vector<float> depth;      ///< window depth of these; a few pixels may be odd
   std::vector<bool> isOdd;       ///< pixels whose depth is NaN, or no depth at all
   DepthForm depthForm = DepthForm::Float;
-  std::vector<LightMaps> maps;   ///< one a light
-  bool hasOddTexels = false;     ///< NaN, infinite or outside [0, 1]
+  std::vector<LightMaps> maps; ///< one a light
+  bool hasOddTexels = false;   ///< NaN, infinite or outside [0, 1]
+  glm::ivec3 lookup{0};        ///< texels and layers of a look-up; 0: none
+  double lookupNear = 1, lookupFar = 2;
   tyndall::Settings anySettings; ///< valid ones, for a picture that needs not be good
   Relation relation = Relation::DoubledLight;
 };

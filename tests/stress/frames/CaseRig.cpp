@@ -2,6 +2,7 @@
 
 #include "gl/ReadBack.h"
 
+#include <cmath>
 #include <stdexcept>
 
 using namespace tyndall;
@@ -38,6 +39,9 @@ CaseRig::CaseRig(const Case& made, Effect& effect) : frame(made.frame), made_(ma
   scene_.width = viewport.width;
   scene_.height = viewport.height;
   uploadDepth(made.depth, made.depthForm);
+  if (made.lookup.z > 0)
+    lookup_.emplace(made.lookup.x, made.lookup.y, made.lookup.z,
+                    tests::ShaftsLookup::Range{made.lookupNear, made.lookupFar});
   maps_.reserve(made.maps.size());
   scene_.lights = frame.lights;
   for (std::size_t i = 0; i < made.maps.size(); ++i)
@@ -88,6 +92,27 @@ void CaseRig::uploadMaps(std::size_t light) {
   if (!maps.image.glassDepth.empty()) readBack(frame.lights[light].glass.depth, scene_.shadows.back().glassDepth);
 }
 
+// From layer to layer light becomes more, and what is left of it less.
+std::string CaseRig::faultOfLookup() const {
+  constexpr double kRounding = 1e-4;
+  reference::Image last;
+  std::vector<double> left;
+  for (int layer = 0; layer < made_.lookup.z; ++layer) {
+    const reference::Image light = lookup_->light(layer), passed = lookup_->passed(layer);
+    for (std::size_t i = 0; i < light.rgb.size(); ++i) {
+      const auto is = [&](const char* what) { return std::string(what) + " in layer " + std::to_string(layer); };
+      if (!(std::isfinite(light.rgb[i]) && light.rgb[i] >= 0)) return is("no light");
+      if (!(passed.rgb[i] >= 0 && passed.rgb[i] <= 1)) return is("no transmittance");
+      if (layer == 0) continue;
+      if (light.rgb[i] < (1 - kRounding) * last.rgb[i]) return is("less light");
+      if (passed.rgb[i] > left[i] + kRounding) return is("more transmittance");
+    }
+    last = light;
+    left = passed.rgb;
+  }
+  return {};
+}
+
 Picture CaseRig::render(const Settings& settings) {
   const std::vector<float> poison(4 * countOf(width_, height_), kPoison);
   for (const host::GlTexture* output : {&inscatter_, &transmittance_}) {
@@ -95,6 +120,9 @@ Picture CaseRig::render(const Settings& settings) {
     gl().TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_FLOAT, poison.data());
   }
   frame.settings = settings;
+  frame.lookup = {};
+  const bool looksUp = lookup_ && settings.technique != Technique::Exact;
+  if (looksUp) lookup_->enter(frame);
   if (const Status status = effect_.render(frame); !status) throw std::runtime_error(status.message);
   Picture picture;
   const Rectangle& viewport = frame.viewport;
@@ -115,6 +143,7 @@ Picture CaseRig::render(const Settings& settings) {
   };
   picture.inscatter = read(inscatter_);
   picture.transmittance = read(transmittance_);
+  if (looksUp) picture.lookupFault = faultOfLookup();
   return picture;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Case.h"
+#include "support/ShaftsLookup.h"
 
 namespace stress {
 
@@ -9,6 +10,7 @@ namespace stress {
 struct Picture {
   reference::Image inscatter, transmittance;
   bool isWithinViewport = true; ///< no texel outside the viewport was written
+  std::string lookupFault;      ///< what a look-up may not hold; empty: nothing
 };
 
 class CaseRig {
@@ -31,12 +33,14 @@ public:
 private:
   void uploadDepth(const std::vector<float>& depth, DepthForm form);
   void uploadMaps(std::size_t light);
+  std::string faultOfLookup() const;
 
   const Case& made_;
   tyndall::Effect& effect_;
   int width_, height_; ///< of the textures
   reference::MapScene scene_;
   std::vector<tests::LaidMaps> maps_;
+  std::optional<tests::ShaftsLookup> lookup_;
   host::GlTexture depth_, inscatter_, transmittance_;
 };
 

@@ -151,6 +151,7 @@ private:
               fmt::format("{} of pixel {}", image == &picture.inscatter ? "inscatter" : "transmittance", i / 3));
           break;
         }
+    if (!picture.lookupFault.empty()) add(name + ": look-up", 1, 0, picture.lookupFault);
     if (!picture.isWithinViewport) add(name + ": viewport", 1, 0, "a texel outside was written");
     if (!pictures_.empty()) write(picture.inscatter, fmt::format("{}/{}-{}.f32", pictures_, made_.seed, name));
     return picture;

@@ -52,6 +52,8 @@ std::string describe(const Case& made) {
     text += fmt::format("layer of height {:g}, scale {:g}, ground {:g}; up {:g} {:g} {:g}; absorption's {}\n",
                         layer.height, layer.scale, layer.ground, frame.medium.up[0], frame.medium.up[1],
                         frame.medium.up[2], frame.medium.absorptionLayer);
+  text += fmt::format("look-up {} x {} x {} from {:g} to {:g}\n", made.lookup.x, made.lookup.y, made.lookup.z,
+                      made.lookupNear, made.lookupFar);
   text += fmt::format("ambient {}", textOf(frame.ambient.radiance));
   for (const Rgb& harmonic : frame.ambient.harmonics)
     text += " " + textOf(harmonic);
