@@ -21,6 +21,9 @@
 //   Scene depth is the engine's texture, or what [plain depth] makes of it: a part, another size, a layer, another
 //   encoding.
 //
+//   Light of the surroundings (Frame::ambient) comes before all lights, with the transmittance: [ambient] --> the same. A
+//   look-up (Frame::lookup) is filled by the lights' rows: passes/Lookup.h has the picture.
+//
 //   A debug view (Settings::debugView) takes the place of [composite]:
 //
 //   inscatter, transmittance, or what passes/DebugSlices.cpp drew of the first light --> [debug view] --> colour
