@@ -144,11 +144,14 @@ Status checkAmbient(const Ambient& ambient) {
 Status checkLookup(const Frame& frame) {
   const Lookup& lookup = frame.lookup;
   if (lookup.inscatter == 0 && lookup.transmittance == 0) return {};
-  constexpr double kLeast = 1e-30, kMost = 1e30; // float32 holds them
+  constexpr double kLeast = 1e-30, kMost = 1e30;              // float32 holds them,
+  constexpr double kLeastRatio = 1 + 1e-4, kMostRatio = 1e12; // and what lies between
   if (!(lookup.nearDistance >= kLeast && lookup.nearDistance < kMost))
     return invalid("lookup.nearDistance", text(lookup.nearDistance), "must be finite and > 0, as a 32-bit float");
-  if (!(lookup.farDistance > lookup.nearDistance && lookup.farDistance <= kMost))
-    return invalid("lookup.farDistance", text(lookup.farDistance), "must be finite and > nearDistance");
+  const double ratio = lookup.farDistance / lookup.nearDistance;
+  if (!(ratio >= kLeastRatio && ratio <= kMostRatio && lookup.farDistance <= kMost))
+    return invalid("lookup.farDistance", text(lookup.farDistance),
+                   "must be finite, > nearDistance and at most 1e12 times that");
   if (frame.settings.technique == Technique::Exact)
     return invalid("settings.technique", "Exact", "Frame::lookup needs slices: technique Tree, LowRank or Epipolar");
   return {};

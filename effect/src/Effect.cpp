@@ -21,8 +21,8 @@
 //   Scene depth is the engine's texture, or what [plain depth] makes of it: a part, another size, a layer, another
 //   encoding.
 //
-//   Light of the surroundings (Frame::ambient) comes before all lights, with the transmittance: [ambient] --> the same. A
-//   look-up (Frame::lookup) is filled by the lights' rows: passes/Lookup.h has the picture.
+//   Light of the surroundings (Frame::ambient) comes before all lights, with the transmittance: [ambient] --> the same.
+//   A look-up (Frame::lookup) is filled by the lights' rows: passes/Lookup.h has the picture.
 //
 //   A debug view (Settings::debugView) takes the place of [composite]:
 //
@@ -50,6 +50,10 @@ Status Effect::State::render(const Frame& given) {
   frame.camera = steadyCamera(frame, eye);
   PlannedFrame planned;
   Status status = planFrame(frame, textures, eye, planned);
+  if (status && planned.fillsLookup) {
+    const std::uint64_t write = lookupWrites.write(frame.lookup);
+    if (planned.next) planned.next->picture.key.lookup.write = write;
+  }
   if (status && !draw(given, planned, guard))
     status = {StatusCode::Abandoned, "Config::betweenDraws returned false: the rest of the frame was not drawn"};
   keep(frame, eye, status ? &planned : nullptr);
@@ -95,7 +99,8 @@ Status Effect::State::planFrame(const Frame& frame, const FrameTextures& texture
                                 Draws what) {
   framebuffers.beginFrame();
   Allocator allocator(framebuffers, true);
-  const PlanInputs inputs{frame, textures, limits, tuning, targets, eye, recorder.canCount(), &paces};
+  const PlanInputs inputs{
+      frame, textures, limits, tuning, targets, eye, recorder.canCount(), &paces, lookupWrites.lastOf(frame.lookup)};
   FramePlanner planner(inputs, allocator, planned);
   if (what == Draws::All) planner.plan();
   if (checksInputs) planner.planCheck();
@@ -193,10 +198,15 @@ PrepareStatus Effect::State::prepare(const Frame& given) {
 // Plans of the frame without anything kept, and, with reuse, whatever of the last one may be drawn anew.
 std::vector<FramePlan> Effect::State::planAhead(const Frame& frame, const FrameTextures& textures) {
   std::vector<FramePlan> plans;
+  if (optics::isLit(frame.ambient)) { // which may fade, as at night
+    Frame dark = frame;
+    dark.ambient = {};
+    plans = planAhead(dark, textures);
+  }
   const auto plan = [&](const Frame& from, KeptEye* eye, auto&& how, std::optional<bool> sumsApart = {}) {
     Allocator allocator(framebuffers, false);
     PlannedFrame planned;
-    const PlanInputs inputs{from, textures, limits, tuning, targets, eye, false, nullptr, true, sumsApart};
+    const PlanInputs inputs{from, textures, limits, tuning, targets, eye, false, nullptr, 0, true, sumsApart};
     FramePlanner planner(inputs, allocator, planned);
     how(planner);
     plans.push_back(std::move(planned.plan));
@@ -205,11 +215,6 @@ std::vector<FramePlan> Effect::State::planAhead(const Frame& frame, const FrameT
   for (const bool sumsApart : {false, true})
     if (!sumsApart || frame.lights.size() + (hasAmbient ? 1 : 0) > 1)
       plan(frame, nullptr, [](FramePlanner& planner) { planner.plan(); }, sumsApart);
-  if (hasAmbient) { // which may fade, as at night
-    Frame dark = frame;
-    dark.ambient = {};
-    plan(dark, nullptr, [](FramePlanner& planner) { planner.plan(); });
-  }
   if (checksInputs) plan(frame, nullptr, [](FramePlanner& planner) { planner.planCheck(); });
   if (frame.reuse.changes == Changes::Unknown) return plans;
   KeptEye eye(gl, framebuffers, frame.reuse.eye);

@@ -14,6 +14,7 @@
 #include "plan/DrawPlan.h"
 #include "plan/PlanFrame.h"
 #include "reuse/Kept.h"
+#include "reuse/LookupWrites.h"
 
 namespace tyndall {
 
@@ -49,6 +50,7 @@ struct Effect::State {
   std::optional<std::uint64_t> lastEye; ///< whose counts know it
   gl::Uint visits = 0;                  ///< the texture that holds DebugView::NodeVisits' mean
   std::vector<std::string> warnings;
+  LookupWrites lookupWrites;
 
   void createObjects();
   Status check(const char* function);

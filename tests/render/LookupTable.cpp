@@ -28,6 +28,10 @@ struct Size {
 };
 constexpr Size kSizes[] = {{80, 45, 24}, {160, 90, 32}, {160, 90, 64}, {320, 180, 32}};
 
+std::string percentOf(double share) {
+  return share < 1 ? fmt::format(" {:.2g} % |", 100 * share) : fmt::format(" {:.0f} % |", 100 * share);
+}
+
 class Table {
 public:
   explicit Table(const render::Options& options) : renderer_(options) {
@@ -47,6 +51,7 @@ public:
     std::vector<double> surfaces;
     for (const double distance : distances_)
       if (std::isfinite(distance)) surfaces.push_back(distance);
+    if (surfaces.empty()) throw host::Error(scene + " has no surfaces in view");
     std::sort(surfaces.begin(), surfaces.end());
     const double far = surfaces.back(), near = 0.1 * surfaces[surfaces.size() / 2];
     std::vector<double> cuts;
@@ -63,7 +68,7 @@ public:
           fmt::format("| {} | {} × {} × {} | {:.2f}× |", scene, size.width, size.height, size.depths, ratio(with));
       for (std::size_t i = 0; i < cuts.size(); ++i) {
         const reference::Image got = lookup.at(cuts[i], frame_.viewport.width, frame_.viewport.height).inscatter;
-        row += fmt::format(" {:.2g} % |", 100 * error(got, truths[i], cuts[i]));
+        row += percentOf(error(got, truths[i], cuts[i]));
       }
       host::print(row + "\n");
     }

@@ -100,9 +100,10 @@ std::vector<PublicShader> lookupShaders() {
 
 std::vector<PublicShader> shaftsLookupShaders() {
   std::vector<PublicShader> all;
-  for (const int number : {33, 43}) {
-    const std::string text = version(number) + shaftsLookupSource(), call = "tyndallShafts(vec2(0.5), 2.0)",
-                      name = "shafts-look-up-" + std::to_string(number);
+  const std::string embedded = "#version 320 es\nprecision highp float;\nprecision highp sampler2DArray;\n";
+  for (const int number : {33, 43, 32}) {
+    const std::string text = (number == 32 ? embedded : version(number)) + shaftsLookupSource(),
+                      call = "tyndallShafts(vec2(0.5), 2.0)", name = "shafts-look-up-" + std::to_string(number);
     all.push_back({name,
                    "frag",
                    text + "out vec4 colour;\n" + mainOf("colour = vec4(" + call + ".inscatter, 1.0);"),

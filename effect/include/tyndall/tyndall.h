@@ -450,15 +450,16 @@ struct Output {
 /// frame's: particles, panes, leaves. shaftsLookupSource() has the call for their shaders. It is made from the same
 /// shadow-map rows, trees and slices as the picture, so not with Technique::Exact. Layer i of n is light up to the
 /// distance near (far / near)^(i / (n - 1)) of a perspective camera's eye, or of an orthographic one's near plane,
-/// whatever the scene depth. With Frame::reuse it is drawn whole, but in a frame in which nothing has changed: then the
-/// textures stay as they are.
+/// whatever the scene depth. While it is drawn a texture of the effect's own holds 16 bytes for each texel of a layer.
+/// With Frame::reuse it is drawn whole, but in a frame in which nothing has changed: the textures are then taken to
+/// hold what the effect has last written into textures of these names, and stay as they are.
 struct Lookup {
   /// GL_TEXTURE_2D_ARRAY, a float colour format as Output's, whose texels all show the viewport: 1 x 1 to 512 x 512, 2
   /// to 64 layers. Receives inscattered radiance; 0: none is wanted
   std::uint32_t inscatter = 0;
   std::uint32_t transmittance = 0; ///< as large and deep; receives T per channel; 0: not wanted
   double nearDistance = 0;         ///< of the first layer, world units, finite and > 0
-  double farDistance = 0;          ///< of the last, finite and > nearDistance
+  double farDistance = 0;          ///< of the last, finite, > nearDistance and at most 1e12 times that
 };
 
 /// GLSL of tyndallShafts(windowPosition, distance), which a shader of #version 330, or 300 es, or later includes: the

@@ -136,6 +136,7 @@ double leastAmbient(const Frame& frame) {
   if (std::all_of(harmonics.begin(), harmonics.end(), isBlack)) return 0;
   double worst = 0;
   for (const Terms& terms : groupsOf(frame)) {
+    if (terms == Terms{}) continue;
     double least = 0, most = 0;
     for (const Values& values : valuesAround()) {
       dvec3 sum(0);

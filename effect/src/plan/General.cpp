@@ -64,13 +64,20 @@ bool hasProgramsForOneLayer(std::string_view fragment, const Values& values) {
          values["GLASS"] == 0 && values["CURVES"] == 0 && values["SHADOW_VIEWS"] != 0;
 }
 
+// Look-ups through the filter, glass or smoke.
+bool isSeldomLookup(std::string_view fragment, const Values& values) {
+  return isOneOf(fragment, {"lookupLight"}) && values["FILTER_BILINEAR"] + values["GLASS"] + values["CURVES"] > 0;
+}
+
 // Lights without a map, a medium with layers, low rank, the debug view of visits, pixels marched between slices or
-// where shares of the light do not tell, mixtures, and look-ups.
+// where shares of the light do not tell, such look-ups, and mixtures.
 bool isSeldom(std::string_view fragment, const Values& values) {
-  if (!isOneOf(fragment, {"exact", "fixup", "lookupLight", "march", "marchExtra", "pixelTree"})) return values["ROW_HASHES"] != 0;
+  if (!isOneOf(fragment, {"exact", "fixup", "lookupLight", "march", "marchExtra", "pixelTree"}))
+    return values["ROW_HASHES"] != 0;
   if (values["SHADOW_VIEWS"] == 0) return true;
   return isOneOf(fragment, {"fixup"}) || values["HEIGHT"] == kAnyLayers || values["LOW_RANK"] != 0 ||
-         values["COUNT_VISITS"] != 0 || values["SHARES"] != 0 || (isMixture(values) && !isOfSunbeams(fragment, values));
+         values["COUNT_VISITS"] != 0 || values["SHARES"] != 0 || isSeldomLookup(fragment, values) ||
+         (isMixture(values) && !isOfSunbeams(fragment, values));
 }
 
 // One view of an array may be the first of several: always where that costs little or is seldom asked for. A point
@@ -108,6 +115,7 @@ gl::Definitions general(const std::string& fragment, gl::Definitions definitions
   if (!seesLayers(fragment, values)) values.set("HEIGHT", kNoLayers);
   if (isOneOf(fragment, {"ambient", "lookupAmbient", "lookupTransmittance", "transmittance"}))
     values.set("MONOCHROME", 0);
+  if (isSeldomLookup(fragment, values)) values.set("MONOCHROME", 0);
   if (values["HEIGHT"] == kOnlyLayer && values["LIGHT_KIND"] != 0) values.set("HEIGHT", kOneLayer);
   if (isOneOf(fragment, {"ambient", "lookupAmbient"})) // which no map blocks
     for (const char* name : {"SHADOW_VIEWS", "SHADOW_ARRAY", "FILTER_BILINEAR", "GLASS", "CURVES"})

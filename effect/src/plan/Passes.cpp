@@ -392,17 +392,17 @@ std::vector<PassRow> makeRows() {
           .walksRows()
           .writes({R::LookupSteps})
           .joins(Joining::AddAll),
-      Row(Pass::LookupAmbient, "look-up", "passes/lookupAmbient.frag")
+      Row(Pass::LookupAmbient, "look-up ambient", "passes/lookupAmbient.frag")
           .readsIfThere({R::Occlusion})
           .walksOpen()
           .writes({R::LookupSteps})
           .joins(Joining::AddAll)
           .when(isDirectional),
-      Row(Pass::LookupSums, "look-up", "passes/lookupSums.frag")
+      Row(Pass::LookupSums, "look-up sums", "passes/lookupSums.frag")
           .reads({R::LookupSteps})
           .into(Into::Lookup)
           .sameForAllLights(),
-      Row(Pass::LookupTransmittance, "look-up", "passes/lookupTransmittance.frag").into(Into::Lookup),
+      Row(Pass::LookupTransmittance, "look-up transmittance", "passes/lookupTransmittance.frag").into(Into::Lookup),
       Row(Pass::KeepEnds, "keep ends", "passes/copyTexels.frag", S::Slices)
           .reads({R::Image})
           .writes({R::SampleEnds})

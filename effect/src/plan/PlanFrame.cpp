@@ -148,9 +148,9 @@ void FramePlanner::planInFull() {
       changesColour(frame_) || hasDebugView(frame_) || output.inscatter != 0 || output.transmittance != 0;
   if (!shows && !looksUp) return;
   begin(chooseDestination(changesColour(frame_)));
-  planDepth();
+  if (shows) planDepth();
   if (showsSlices(frame_)) passes_.clear(Resource::DebugView, 0);
-  if (looksUp) passes::lookup::begin(passes_);
+  beginLookup();
   if (shows) planLights(frame_, passes_.destination, lightsToDraw(frame_, passes_.destination));
   finishLookup();
   if (passes_.destination.copies) copyToOutput(passes_.destination.inscatter, inscatter_.texture);
@@ -178,7 +178,7 @@ Destination FramePlanner::chooseDestination(bool changes) {
   to.transmittance = transmittance_.texture;
   to.composite = hasDebugView(frame_) || (changes && frame_.colour != 0);
   to.copies = apart && output.inscatter != 0;
-  if (!to.inscatter && (to.composite || to.copies)) {
+  if (!to.inscatter && (to.composite || to.copies || frame_.lookup.inscatter != 0)) {
     to.inscatter = passes_.textureOf(Resource::Inscatter);
     to.ceiling = partOf(kLargestFloat, parts);
   }
@@ -246,8 +246,21 @@ std::vector<DrawnLight> FramePlanner::lightsToDraw(const Frame& frame, const Des
   return lights;
 }
 
+void FramePlanner::beginLookup() {
+  if (in_.textures.lookup.depths == 0) return;
+  const Size steps = rowOf(Resource::LookupSteps).size(passes_.extent);
+  if (std::max(steps.width, steps.height) > in_.limits.textureSize)
+    return allocator_.fail(
+        {StatusCode::InvalidFrame, "Frame::lookup's layers need a texture of " + std::to_string(steps.width) + " x " +
+                                       std::to_string(steps.height) + ": this context has none so large"});
+  out_.fillsLookup = true;
+  if (frame_.lookup.inscatter != 0) passes::lookup::begin(passes_);
+}
+
 void FramePlanner::finishLookup() {
-  if (std::exchange(passes_.fillsLookup, false)) passes::lookup::finish(passes_, frame_.lookup, in_.textures.lookup);
+  if (!out_.fillsLookup) return;
+  passes_.fillsLookup = false;
+  passes::lookup::finish(passes_, frame_.lookup, in_.textures.lookup);
 }
 
 AmbientKey FramePlanner::ambientKey() const {

@@ -21,6 +21,7 @@ struct PlanInputs {
   KeptEye* eye = nullptr;           ///< temporal reuse; null: nothing is kept
   bool counts = true;               ///< queries may be used: none of the engine's own is under way
   const BandPaces* paces = nullptr; ///< of earlier frames' draws; null: nothing is known
+  std::uint64_t lookupWrite = 0;    ///< which write of Frame::lookup's textures was the last; 0: not known
   // To compile ahead of frames like this one:
   bool ahead = false;              ///< with a camera that may look elsewhere
   std::optional<bool> sumsApart{}; ///< lights may, or may not, need a texture of their own to be added up in
@@ -29,9 +30,10 @@ struct PlanInputs {
 struct PlannedFrame {
   FramePlan plan;
   std::optional<KeptNext> next;
-  gl::Uint empty = 0;  ///< what a sampler reads that has nothing to read
-  gl::Uint visits = 0; ///< DebugView::NodeVisits: a texture that holds their mean
-  gl::Uint checks = 0; ///< Resource::InputChecks, of these lights:
+  bool fillsLookup = false; ///< Frame::lookup is drawn
+  gl::Uint empty = 0;       ///< what a sampler reads that has nothing to read
+  gl::Uint visits = 0;      ///< DebugView::NodeVisits: a texture that holds their mean
+  gl::Uint checks = 0;      ///< Resource::InputChecks, of these lights:
   std::vector<std::size_t> checkedLights = {};
 };
 
@@ -70,6 +72,7 @@ private:
   void planDepth();
   std::vector<DrawnLight> lightsToDraw(const Frame& frame, const Destination& destination);
   AmbientKey ambientKey() const;
+  void beginLookup();
   void finishLookup();
   bool planAmbient(const PassPlanner& planner);
   void planLights(const Frame& frame, const Destination& destination, const std::vector<DrawnLight>& lights);

@@ -82,11 +82,13 @@ bool same(const AmbientKey& a, const AmbientKey& b) {
          (now.texture == 0 || isStated(now.version, last.version));
 }
 
-bool same(const Lookup& a, const Lookup& b) {
-  const auto fieldsOf = [](const Lookup& l) {
-    return std::tie(l.inscatter, l.transmittance, l.nearDistance, l.farDistance);
+bool same(const LookupKey& a, const LookupKey& b) {
+  const auto fieldsOf = [](const LookupKey& k) {
+    const Lookup& l = k.engines;
+    return std::tie(l.inscatter, l.transmittance, l.nearDistance, l.farDistance, k.textures.width, k.textures.height,
+                    k.textures.depths, k.write);
   };
-  return fieldsOf(a) == fieldsOf(b);
+  return a.textures.depths == 0 || fieldsOf(a) == fieldsOf(b); // none is wanted
 }
 
 bool sameFrame(const FrameKey& a, const FrameKey& b) {

@@ -28,6 +28,13 @@ struct AmbientKey {
   AmbientOcclusion occlusion;
 };
 
+/// What light is looked up in, and which write of those textures was the last.
+struct LookupKey {
+  Lookup engines;
+  FrameTextures::Lookup textures;
+  std::uint64_t write = 0;
+};
+
 DepthContent depthOf(const Frame& frame);
 MapContent mapsOf(const Light& light);
 
@@ -48,7 +55,7 @@ struct FrameKey {
   blocks::FrameBlock block{}; ///< but for the jitter
   glm::vec2 jitter{0};
   AmbientKey ambient;
-  Lookup lookup;
+  LookupKey lookup;
   double slicesBeyond = 0; ///< pixels beyond the image
   Settings settings;
   std::vector<std::size_t> drawn; ///< indices of the lights
@@ -59,7 +66,7 @@ bool same(const LightKey& a, const LightKey& b);
 /// True if maps are copied in the same way, or not.
 bool sameCopies(const LightKey& a, const LightKey& b);
 bool same(const AmbientKey& a, const AmbientKey& b);
-bool same(const Lookup& a, const Lookup& b);
+bool same(const LookupKey& a, const LookupKey& b);
 /// But for the lights' own, the surroundings' and the jitter.
 bool sameFrame(const FrameKey& a, const FrameKey& b);
 

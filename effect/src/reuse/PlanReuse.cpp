@@ -63,7 +63,7 @@ FrameKey FramePlanner::keyOf(const std::vector<DrawnLight>& drawn) const {
   FrameKey key{out_.plan.block<blocks::FrameBlock>(passes_.frameBlock),
                {},
                ambientKey(),
-               frame_.lookup,
+               {frame_.lookup, in_.textures.lookup, in_.lookupWrite},
                optics::slicesBeyond(frame_.camera),
                frame_.settings,
                {},
@@ -71,6 +71,9 @@ FrameKey FramePlanner::keyOf(const std::vector<DrawnLight>& drawn) const {
   std::swap(key.jitter, key.block.jitter);
   key.block.depthFirst = {}; // where in its texture the depth is says no more than which texture it is
   key.block.depthLayer = 0;
+  key.block.lookupSize = {}; // what is looked up is a key of its own
+  key.block.lookupDepths = 0;
+  key.block.lookupNear = key.block.lookupGrowth = 0;
   for (const DrawnLight& light : drawn) {
     key.drawn.push_back(light.index);
     key.lights.push_back({light.block, light.settings, in_.textures.shadows[light.index], light.variant,
@@ -89,13 +92,15 @@ void FramePlanner::planReused(const std::vector<DrawnLight>& drawn, RedrawPlan r
   KeptNext next{
       {redraw.key, depthOf(frame_), frame_.reuse.frame, eye.last && eye.last->hasDepth, frame_.camera}, {}, {}};
   Redraw picture = redraw.picture;
-  const bool looksUp = in_.textures.lookup.depths > 0;
-  if (picture != Redraw::Nothing) planDepth();
-  if (picture != Redraw::Nothing && looksUp) passes::lookup::begin(passes_);
+  if (picture != Redraw::Nothing) {
+    planDepth();
+    beginLookup();
+  }
   Mask mask;
   if (picture == Redraw::Nothing) {
     out_.plan.skip("lights", "nothing has changed: the last frame's picture is shown");
-    if (looksUp) out_.plan.skip(rowOf(Pass::LookupSums).name, "nothing has changed: the textures are left alone");
+    if (in_.textures.lookup.depths > 0)
+      out_.plan.skip(rowOf(Pass::LookupSums).name, "nothing has changed: the textures are left alone");
     next.count.segments = 1;
   } else if (drawsInParts(frame_) && !drawn.empty()) {
     mask = planParts(drawn, redraw, next);

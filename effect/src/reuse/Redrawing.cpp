@@ -138,7 +138,10 @@ void planSlices(LightPlanner& light, LightRedraw& redraw, Redrawing& frame) {
   if (redraw.redraw == Redraw::Nothing && kept.last) {
     takeKept(light, *kept.last);
     light.takeCopies(kept.last->board);
+    const Extent now = light.extent;
     light.extent = kept.last->extent;
+    light.extent.lookup = now.lookup;
+    light.extent.lookupDepths = now.lookupDepths;
     light.block = kept.last->block;
     light.viewsPerDraw = kept.last->viewsPerDraw;
     frame.count.segments += static_cast<std::uint64_t>(light.segments());

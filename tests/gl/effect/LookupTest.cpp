@@ -1,5 +1,7 @@
 // Frame::lookup: light and transmittance up to a set of distances against exact that is cut there, what shaders make of
 // it (shaftsLookupSource), and when it is left alone.
+#include "FaultyContext.h"
+#include "FrameCases.h"
 #include "RefusalRig.h"
 #include "ReuseRig.h"
 #include "ShaftRig.h"
@@ -11,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 using namespace tyndall;
 
@@ -28,7 +31,8 @@ reference::ImageAnswer cutAt(tests::SceneRig& rig, double distance, Technique te
                                                     std::vector<float>(pixels, static_cast<float>(distance)));
   rig.frame.depth = {};
   rig.frame.depth.texture = depth.name();
-  rig.frame.depth.encoding = DepthEncoding::Radial;
+  const bool isOrthographic = frame.camera.clipFromView[15] != 0;
+  rig.frame.depth.encoding = isOrthographic ? DepthEncoding::Axial : DepthEncoding::Radial;
   rig.frame.settings.technique = technique;
   rig.frame.lookup = {};
   const reference::ImageAnswer answer = rig.render();
@@ -182,7 +186,8 @@ TEST_CASE("a look-up of few texels is about as bright as one of many, whatever i
   tests::ShaftsLookup one(1, 1, 2, kRange); // a single ray
   one.enter(frame);
   rig.scene.render();
-  CHECK(std::isfinite(meanOf(one.light(1))));
+  CHECK(meanOf(one.light(1)) > 0);
+  CHECK(meanOf(one.light(1)) < 20 * truth);
 }
 
 TEST_CASE("a frame with a look-up is the frame without one, and where nothing is added the look-up is empty") {
@@ -247,14 +252,136 @@ TEST_CASE("under reuse a look-up is that of a frame in full, and where nothing h
     const reference::Image last = kept.light(6);
     ++frame.reuse.frame;
     rig.scene.render();
-    CHECK_FALSE(isDrawn(tests::testEffect().statistics(), "look-up"));
+    CHECK_FALSE(isDrawn(tests::testEffect().statistics(), "look-up sums"));
     CHECK(kept.light(6).rgb == last.rgb);
     whole.enter(frame); // other textures: nothing is in them
     ++frame.reuse.frame;
     rig.scene.render();
-    CHECK(isDrawn(tests::testEffect().statistics(), "look-up"));
+    CHECK(isDrawn(tests::testEffect().statistics(), "look-up sums"));
     CHECK(tests::difference(whole.light(6), last) <= 1e-6);
   }
+}
+
+TEST_CASE("a look-up is the same light whatever else of a frame is not plain") {
+  struct Row {
+    const char* name;
+    std::function<void(tests::ShaftRig&)> change;
+    double more = 1.15; // than the tree's error
+  };
+  const std::vector<Row> rows = {
+      {"orthographic",
+       [](tests::ShaftRig& rig) {
+         tests::DepthConvention parallel = rig.scene.convention();
+         parallel.orthographic = true;
+         rig.setConvention(parallel);
+       }},
+      {"multisampled",
+       [](tests::ShaftRig& rig) {
+         const std::vector<float> depth = rig.scene.depth();
+         rig.scene.setMultisampledDepth(4, GL_DEPTH_COMPONENT32F, [&](int pixel, int sample) {
+           return depth[(static_cast<std::size_t>(pixel) + static_cast<std::size_t>(sample)) % depth.size()];
+         });
+       }},
+      // Of fewer slices, which are farther away.
+      {"error target", [](tests::ShaftRig& rig) { rig.scene.frame.settings.errorTarget = 0.001F; }, 1.5},
+      {"spread", [](tests::ShaftRig& rig) { rig.scene.frame.settings.spreadThreshold = 0.02F; }},
+      {"no tree", [](tests::ShaftRig& rig) { rig.scene.frame.settings.minMaxTree = false; }},
+      {"boundary", [](tests::ShaftRig& rig) { rig.scene.frame.lights[0].boundary = {true, {0, 9, 0}, {0, 1, 0.1}}; }},
+  };
+  for (const Row& row : rows) {
+    tests::ShaftRig rig(kWidth, kHeight);
+    rig.addLight(tests::shaftLight(LightKind::Directional), 128);
+    Frame& frame = rig.scene.frame;
+    frame.medium = haze();
+    frame.settings.technique = Technique::Epipolar;
+    row.change(rig);
+    tests::ShaftsLookup layers(kWidth, kHeight, 8, {1, 20});
+    layers.enter(frame);
+    REQUIRE(tests::testEffect().render(frame));
+    const reference::ImageAnswer truth = cutAt(rig.scene, layers.distance(6));
+    const double tree =
+        reference::compare(cutAt(rig.scene, layers.distance(6), Technique::Tree).inscatter, truth.inscatter).rRmse;
+    CAPTURE(row.name, tree);
+    CHECK(tree < 0.2);
+    CHECK(reference::compare(layers.light(6), truth.inscatter).rRmse <= row.more * tree + 2e-3);
+    CHECK(tests::difference(layers.passed(6), truth.transmittance) <= 1e-5);
+  }
+}
+
+TEST_CASE(
+    "a look-up is filled in a frame that else wants its transmittance only, and of its two parts what is asked for") {
+  tests::SceneRig rig = tests::threeLights();
+  rig.frame.medium = haze();
+  rig.frame.ambient.radiance = {0.1F, 0.2F, 0.3F};
+  rig.frame.settings.technique = Technique::Tree;
+  tests::ShaftsLookup wanted(16, 16, 5, kRange), layers(16, 16, 5, kRange), half(16, 16, 5, kRange);
+  wanted.enter(rig.frame);
+  rig.render();
+  const std::uint32_t inscatter = std::exchange(rig.frame.output.inscatter, 0);
+  layers.enter(rig.frame);
+  REQUIRE(tests::testEffect().render(rig.frame));
+  CHECK(tests::difference(layers.light(4), wanted.light(4)) <= 1e-6);
+  CHECK(layers.passed(4).rgb == wanted.passed(4).rgb);
+  rig.frame.output.inscatter = inscatter;
+  half.enter(rig.frame);
+  rig.frame.lookup.inscatter = 0;
+  rig.render();
+  CHECK(half.passed(4).rgb == wanted.passed(4).rgb);
+  CHECK(meanOf(half.light(4)) == 7); // as it was
+  CHECK_FALSE(isDrawn(tests::testEffect().statistics(), "light 0 look-up"));
+}
+
+TEST_CASE("a look-up that something else has written since the eye's last frame is drawn anew, and no slice is") {
+  tests::ShaftRig rig = tests::reuse::sunlit(Changes::Detect);
+  Frame& frame = rig.scene.frame;
+  frame.medium = haze();
+  tests::ShaftsLookup layers(32, 24, 6, kRange), others(32, 24, 6, {0.5, 30});
+  layers.enter(frame);
+  const auto next = [&] {
+    ++frame.reuse.frame;
+    rig.scene.render();
+    return tests::testEffect().statistics();
+  };
+  next();
+  const reference::Image light = layers.light(5);
+  CHECK_FALSE(isDrawn(next(), "look-up sums"));
+  const Frame last = frame;
+  frame.reuse = {}; // of another medium, and kept by no eye
+  frame.medium.constituents[0].scattering = {};
+  rig.scene.render();
+  CHECK(meanOf(layers.light(5)) == 0);
+  frame = last;
+  const Statistics again = next();
+  CHECK(isDrawn(again, "look-up sums"));
+  CHECK(again.redrawnShare == 0);
+  CHECK(tests::difference(layers.light(5), light) <= 1e-6);
+  others.enter(frame);
+  const Statistics other = next();
+  CHECK(isDrawn(other, "look-up sums"));
+  CHECK(other.redrawnShare == 0);
+  frame.lookup = {};
+  CHECK(next().redrawnShare == 0);
+  others.enter(frame);
+  next();
+  CHECK_FALSE(isDrawn(next(), "look-up sums"));
+}
+
+TEST_CASE("faces of a lamp that are marched one after the other come into a look-up whole") {
+  const tests::FrameCase& parts = tests::frameCase("tree, look-up, lamp in parts");
+  tests::FaultyContext context;
+  context.setMaxTextureSize(parts.maxTextureSize);
+  tests::Stage stage(parts);
+  const CreateResult created = context.create();
+  REQUIRE(created.status);
+  const tests::TargetContents inParts = stage.draw(*created.effect), whole = stage.draw(tests::testEffect());
+  REQUIRE(inParts.size() == whole.size());
+  double most = 0;
+  for (std::size_t i = 3; i < whole.size(); ++i) // behind colour and outputs
+    for (std::size_t k = 0; k < whole[i].size(); ++k) {
+      most = std::max(most, static_cast<double>(whole[i][k]));
+      CHECK(static_cast<double>(inParts[i][k]) == Approx(static_cast<double>(whole[i][k])).epsilon(0.02).margin(1e-5));
+    }
+  CHECK(most > 0);
 }
 
 TEST_CASE("a look-up that breaks a rule is refused by field") {
@@ -271,7 +398,7 @@ TEST_CASE("a look-up that breaks a rule is refused by field") {
   };
   for (const double distance : {0.0, -1.0, std::nan(""), kInfinity, 1e-40, 1e31})
     refused([&](Frame& f) { f.lookup.nearDistance = distance; }, {"Frame::lookup.nearDistance", "finite and > 0"});
-  for (const double distance : {0.0, 1.0, -2.0, std::nan(""), kInfinity, 1e31})
+  for (const double distance : {0.0, 1.0, -2.0, std::nan(""), kInfinity, 1e31, 1.00001, 2e12})
     refused([&](Frame& f) { f.lookup.farDistance = distance; }, {"Frame::lookup.farDistance", "> nearDistance"});
   refused([](Frame& f) { f.settings.technique = Technique::Exact; }, {"Frame::settings.technique", "needs slices"});
   refused([](Frame& f) { f.lookup.transmittance = f.lookup.inscatter; },

@@ -269,7 +269,10 @@ tyndall::Frame frameOf(Numbers& numbers) {
   if (numbers.below(8) == 1) frame.medium.dimsBackground = false;
   for (tyndall::Light& light : frame.lights)
     if (numbers.below(8) == 1) light.scatteringScale = static_cast<float>(mostly(numbers, 0, 10));
-  if (numbers.below(4) == 1) frame.lookup = {11, 12, scaled(numbers, -3, 9), scaled(numbers, -3, 9)};
+  if (numbers.below(4) == 1) {
+    frame.lookup = {11, 12, scaled(numbers, -3, 9), 0};
+    frame.lookup.farDistance = frame.lookup.nearDistance * scaled(numbers, 0, 4);
+  }
   return frame;
 }
 
