@@ -156,8 +156,9 @@ Status checkLookup(const Functions& gl, const Frame& frame, FrameTextures& textu
     TextureInfo info;
     if (Status s = checkTexture(gl, field, name, TEXTURE_2D_ARRAY, Use::Output, info); !s) return s;
     *format = {static_cast<Enum>(info.format), largestValue(info.format)};
+    const Uint texture = name;
     const bool isGlass = std::any_of(frame.lights.begin(), frame.lights.end(),
-                                     [name = name](const Light& light) { return light.glass.colour == name; });
+                                     [&](const Light& light) { return light.glass.colour == texture; });
     if (name == frame.colour || name == frame.output.inscatter || name == frame.output.transmittance || isGlass)
       return invalid(field, name, "must differ from colour, output and glass");
     if (info.width > kMostTexels || info.height > kMostTexels)
