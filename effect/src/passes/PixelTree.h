@@ -6,7 +6,7 @@
 
 namespace tyndall::passes::pixel_tree {
 
-/// By Technique::Tree or LowRank.
+/// By Technique::Tree or LowRank. False if the rows that it leaves are not those of lit spans (rows::Walk).
 bool plan(LightPlanner& light);
 
 /// Adds what the walks look at to the debug view, instead of light to the destination.

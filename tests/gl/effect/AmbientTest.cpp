@@ -1,6 +1,7 @@
 // Light of the surroundings (Frame::ambient): against integrals over the sphere, conservation, with lights, under
-// reuse; and what is unphysical on purpose (Light::scatteringScale, Medium::dimsBackground).
+// reuse.
 #include "AirlightSweep.h"
+#include "MediaRig.h"
 #include "ReuseRig.h"
 #include "ShaftRig.h"
 #include "gl/Gl.h"
@@ -14,25 +15,10 @@
 #include <limits>
 
 using namespace tyndall;
+using namespace tests::media;
 using tests::errorOf;
 
 namespace {
-
-// A blue zenith, a bright side and a dark ground: nowhere negative, but for what a phase function sharpens.
-Ambient sky() {
-  Ambient ambient;
-  ambient.radiance = {0.2F, 0.3F, 0.5F};
-  ambient.harmonics = {{{1.0F, 1.2F, 1.6F},
-                        {0.3F, 0.4F, 0.6F},
-                        {-0.2F, -0.1F, 0.05F},
-                        {0.25F, 0.1F, -0.1F},
-                        {0.1F, 0.05F, 0},
-                        {-0.05F, 0.1F, 0.1F},
-                        {0.05F, -0.05F, 0.1F},
-                        {0.02F, 0, -0.1F},
-                        {0.1F, 0.1F, -0.05F}}};
-  return ambient;
-}
 
 Ambient even(float radiance) {
   Ambient ambient;
@@ -48,42 +34,11 @@ std::vector<Constituent> phases() {
   return all;
 }
 
-Medium haze() {
-  Medium medium;
-  medium.constituents = {{{0.03F, 0.04F, 0.05F}, Phase::HenyeyGreenstein, 0.6F}};
-  medium.farDistance = 40;
-  return medium;
-}
-
-// And fog of another phase, and one more layer.
-Medium layered() {
-  Medium medium = haze();
-  medium.layers = {{0.5, 0.7}, {1, 4, -1}};
-  medium.constituents.push_back({{0.2F, 0.2F, 0.2F}, Phase::Rayleigh, 0, 0});
-  medium.constituents.push_back({{0.02F, 0.05F, 0.01F}, Phase::CornetteShanks, -0.3F, 1});
-  return medium;
-}
-
-const std::vector<Technique> kTechniques = {Technique::Exact, Technique::Tree, Technique::Epipolar, Technique::LowRank};
-
-reference::Image sumOf(const reference::Image& a, const reference::Image& b) {
-  reference::Image sum = a;
-  for (std::size_t i = 0; i < sum.rgb.size(); ++i)
-    sum.rgb[i] += b.rgb[i];
-  return sum;
-}
-
 host::GlTexture occlusionTexture(tests::SceneRig& rig, int width, int height, const std::vector<float>& shares) {
   host::GlTexture texture = tests::floatTexture(GL_R32F, width, height, shares);
   rig.occlusion = {width, height, shares};
   rig.frame.ambient.occlusion.texture = texture.name();
   return texture;
-}
-
-const PassStatistics* passNamed(const Statistics& statistics, const std::string& name) {
-  const auto found = std::find_if(statistics.passes.begin(), statistics.passes.end(),
-                                  [&](const PassStatistics& pass) { return pass.name == name; });
-  return found == statistics.passes.end() ? nullptr : &*found;
 }
 
 } // namespace
@@ -422,54 +377,4 @@ TEST_CASE("ambient light of a multisampled depth is kept under reuse, and is tha
     if (i != 1) CHECK(tests::difference(kept.inscatter, whole.inscatter) <= 1e-6);
     CHECK(tests::difference(kept.transmittance, whole.transmittance) <= 1e-6);
   }
-}
-
-TEST_CASE("a light whose scattering is scaled adds so many times as much, and nothing at 0") {
-  for (const Technique technique : kTechniques) {
-    tests::SceneRig rig;
-    rig.addLight(LightKind::Spot);
-    rig.frame.medium = haze();
-    rig.frame.settings.technique = technique;
-    const reference::ImageAnswer once = rig.render();
-    rig.frame.lights[0].scatteringScale = 4;
-    const reference::ImageAnswer more = rig.render(), wanted = rig.reference();
-    rig.frame.lights[0].scatteringScale = 0;
-    const reference::ImageAnswer none = rig.render();
-    CAPTURE(static_cast<int>(technique));
-    CHECK(tests::difference(more.inscatter, sumOf(sumOf(once.inscatter, once.inscatter),
-                                                  sumOf(once.inscatter, once.inscatter))) <= 1e-6);
-    CHECK(more.transmittance.rgb == once.transmittance.rgb);
-    if (technique == Technique::Exact) CHECK(reference::compare(more.inscatter, wanted.inscatter).rRmse <= 1e-3);
-    CHECK(std::all_of(none.inscatter.rgb.begin(), none.inscatter.rgb.end(), [](double v) { return v == 0; }));
-    const std::string name = technique == Technique::Exact ? "exact light 0" : "light 0";
-    REQUIRE(passNamed(tests::testEffect().statistics(), name));
-    CHECK(passNamed(tests::testEffect().statistics(), name)->skipped == "the light's scatteringScale is 0");
-  }
-}
-
-TEST_CASE("a medium that dims nothing adds its light and leaves the picture behind, by every technique and way") {
-  for (const Technique technique : kTechniques)
-    for (const bool ambient : {false, true}) {
-      tests::SceneRig rig;
-      rig.addLight(LightKind::Point);
-      rig.frame.medium = layered();
-      rig.frame.settings.technique = technique;
-      if (ambient) rig.frame.ambient = sky();
-      const reference::ImageAnswer dimmed = rig.render();
-      rig.frame.medium.dimsBackground = false;
-      const reference::ImageAnswer bare = rig.render();
-      CAPTURE(static_cast<int>(technique), ambient);
-      CHECK(bare.inscatter.rgb == dimmed.inscatter.rgb);
-      CHECK(std::all_of(bare.transmittance.rgb.begin(), bare.transmittance.rgb.end(), [](double v) { return v == 1; }));
-      const auto width = rig.frame.viewport.width, height = rig.frame.viewport.height;
-      const std::vector<float> back(static_cast<std::size_t>(4 * width * height), 0.25F);
-      const host::GlTexture colour = rig.makeColour(GL_RGBA32F, back);
-      rig.frame.output = {};
-      REQUIRE(tests::testEffect().render(rig.frame));
-      const reference::Image got(width, height, host::readColour(colour.name(), width, height, 3));
-      reference::Image wanted = bare.inscatter;
-      for (double& value : wanted.rgb)
-        value += 0.25;
-      CHECK(tests::difference(got, wanted) <= 1e-6);
-    }
 }

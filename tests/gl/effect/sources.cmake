@@ -75,6 +75,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/TrueLineTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/TuningTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/TurningCameraTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/UnphysicalTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ViewBorderTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ViewTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ViewportTest.cpp
