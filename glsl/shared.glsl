@@ -57,6 +57,10 @@ UNIFORM_BLOCK(FrameBlock) {
   int lookupDepths, lookupFirst;      // layers of a look-up (lib/lookup.glsl), the first of those that are drawn
   ivec2 lookupSize;                   // texels of a layer
   float lookupNear, lookupGrowth;     // layer i is at lookupNear 2^(i lookupGrowth)
+  // Curves before the eye (lib/eyeCurves.glsl): texels per side, 1 if packed, texels that hold one; depth dot(xyz, x) + w,
+  int eyeCurvesSize, eyeCurvesPacked, texelsPerEyeCurve;
+  int framePadding0;
+  vec4 eyeCurveDepth;                 // 0 and 1 at the planes between which they were captured
 };
 
 // Light of the surroundings (passes/ambient.frag).

@@ -14,22 +14,6 @@ namespace tyndall {
 
 namespace {
 
-constexpr double kMostJitter = 16; // pixels, as the header says
-
-Status checkCamera(const Camera& camera) {
-  if (Status s = checkMatrix("camera.viewFromWorld", camera.viewFromWorld); !s) return s;
-  const Mat4& view = camera.viewFromWorld;
-  constexpr double kRounding = 1e-5; // of a matrix that a general inverse made, in float
-  if (std::abs(view[3]) + std::abs(view[7]) + std::abs(view[11]) > kRounding || std::abs(view[15] - 1) > kRounding)
-    return invalid("camera.viewFromWorld", "not affine", "its last row must be (0, 0, 0, 1)");
-  if (Status s = checkClipDepth("camera.clipDepth", camera.clipDepth); !s) return s;
-  const auto [x, y] = camera.jitter;
-  if (!(std::abs(x) <= kMostJitter && std::abs(y) <= kMostJitter))
-    return invalid("camera.jitter", "(" + text(x) + ", " + text(y) + ")",
-                   "must be finite and at most 16 pixels, either way");
-  return checkMatrix("camera.clipFromView", camera.clipFromView);
-}
-
 std::string nameOf(DepthEncoding encoding) {
   constexpr const char* kNames[] = {"Window", "Axial", "Radial", "Logarithmic"};
   return kNames[static_cast<int>(encoding)];
@@ -157,6 +141,13 @@ Status checkLookup(const Frame& frame) {
   return {};
 }
 
+Status checkEyeCurves(const Frame& frame) {
+  const EyeCurves& eye = frame.eyeCurves;
+  if (eye.curves.texture == 0) return {};
+  if (Status s = checkNodes("eyeCurves.curves.nodes", eye.curves); !s) return s;
+  return checkEyePlanes(frame.camera, eye.nearDistance, eye.farDistance);
+}
+
 Status checkView(const Frame& frame) {
   const DebugView view = frame.settings.debugView;
   const Technique technique = frame.settings.technique;
@@ -254,6 +245,7 @@ Status checkValues(const Frame& frame) {
     if (Status s = checkLight("lights[" + std::to_string(i) + "].", frame.lights[i]); !s) return s;
   if (Status s = checkMedium(frame.medium); !s) return s;
   if (Status s = checkAmbient(frame.ambient); !s) return s;
+  if (Status s = checkEyeCurves(frame); !s) return s;
   if (Status s = checkSettings(frame.settings); !s) return s;
   if (Status s = checkLookup(frame); !s) return s;
   if (Status s = checkReuse(frame); !s) return s;

@@ -38,6 +38,7 @@ struct FrameTextures {
   float depthRounding = 0; ///< share of a distance by which the scene depth's format rounds it
   TargetTexture colour, inscatter, transmittance;
   glm::ivec2 occlusion{0}; ///< texels of Ambient::occlusion, 0 without
+  int eyeCurves = 0;       ///< texels per side of Frame::eyeCurves, 0 without
   Lookup lookup;
   std::vector<Shadow> shadows; ///< one per light, 0 x 0 without a shadow map
 };

@@ -141,12 +141,10 @@ Status checkSpot(const std::string& field, const Light& light) {
 }
 
 Status checkCurves(const std::string& field, const Light& light) {
-  const AvsmCurves& curves = light.curves;
-  if (curves.texture == 0) return {};
+  if (light.curves.texture == 0) return {};
   if (light.shadow.texture == 0)
     return invalid(field + "shadow.texture", "0", "curves need a shadow map, whose views they share");
-  if (curves.nodes < 4 || curves.nodes > 16 || curves.nodes % 4 != 0)
-    return invalid(field + "curves.nodes", std::to_string(curves.nodes), "must be 4, 8, 12 or 16");
+  if (Status s = checkNodes(field + "curves.nodes", light.curves); !s) return s;
   if (light.shadow.cube.enabled && !std::isfinite(light.shadow.cube.farDistance))
     return invalid(field + "shadow.cube.farDistance", text(light.shadow.cube.farDistance),
                    "curves need one that is not at infinity");

@@ -120,17 +120,17 @@ Status checkDistinct(const Frame& frame) {
   return {};
 }
 
-Status checkCurves(const Functions& gl, const std::string& field, const Light& light, int& size) {
+Status checkCurves(const Functions& gl, const std::string& field, const AvsmCurves& curves, int views, int& size) {
+  if (curves.texture == 0) return {};
   TextureInfo info;
-  const Uint name = light.curves.texture;
+  const Uint name = curves.texture;
   if (Status s = checkTexture(gl, field, name, TEXTURE_2D_ARRAY, Use::Curves, info); !s) return s;
-  const auto views = static_cast<int>(light.shadow.views.size());
-  const int layers = views * light.curves.nodes / (light.curves.packed ? 4 : 2);
+  const int layers = views * curves.nodes / (curves.packed ? 4 : 2);
   if (info.width != info.height) return invalid(field, name, "must be as high as it is wide");
   if (info.layers < layers)
     return invalid(field, name,
                    "has " + std::to_string(info.layers) + " layers: " + std::to_string(views) + " views of " +
-                       std::to_string(light.curves.nodes) + " nodes need " + std::to_string(layers));
+                       std::to_string(curves.nodes) + " nodes need " + std::to_string(layers));
   size = info.width;
   return {};
 }
@@ -238,8 +238,8 @@ Status checkShadow(const Functions& gl, const std::string& field, const Light& l
   shadow.width = map.width;
   shadow.height = map.height;
   if (static_cast<Enum>(map.format) == R16F) shadow.rounding = 1.0 / 2048;
-  if (light.curves.texture != 0)
-    if (Status s = checkCurves(gl, field + "curves.texture", light, shadow.curvesSize); !s) return s;
+  const auto views = static_cast<int>(light.shadow.views.size());
+  if (Status s = checkCurves(gl, field + "curves.texture", light.curves, views, shadow.curvesSize); !s) return s;
   if (light.glass.colour == 0) return {};
   TextureInfo colour, depth;
   if (Status s = checkTexture(gl, field + "glass.colour", light.glass.colour, target, Use::Tint, colour); !s) return s;
@@ -264,6 +264,8 @@ Status checkTextures(const Functions& gl, const Frame& frame, FrameTextures& tex
   if (Status s = checkDepth(gl, frame, targets, textures); !s) return s;
   if (Status s = checkOcclusion(gl, frame.ambient, textures); !s) return s;
   if (Status s = checkLookup(gl, frame, textures); !s) return s;
+  if (Status s = checkCurves(gl, "eyeCurves.curves.texture", frame.eyeCurves.curves, 1, textures.eyeCurves); !s)
+    return s;
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     textures.shadows.emplace_back();
     const std::string field = "lights[" + std::to_string(i) + "].";

@@ -37,6 +37,16 @@ inline Status checkClipDepth(const std::string& field, ClipDepth clipDepth) {
   return invalid(field, std::to_string(static_cast<int>(clipDepth)), "must be one of the enumerators");
 }
 
+inline Status checkNodes(const std::string& field, const AvsmCurves& curves) {
+  if (curves.nodes >= 4 && curves.nodes <= 16 && curves.nodes % 4 == 0) return {};
+  return invalid(field, std::to_string(curves.nodes), "must be 4, 8, 12 or 16");
+}
+
+Status checkCamera(const Camera& camera);
+
+/// The planes that curves before the eye lie between (Frame::eyeCurves, eyeLight()); the camera has passed its check.
+Status checkEyePlanes(const Camera& camera, double nearDistance, double farDistance);
+
 /// Numbers of a light and of its shadow views; `field` is "lights[i].".
 Status checkLight(const std::string& field, const Light& light);
 

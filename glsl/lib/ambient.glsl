@@ -1,5 +1,11 @@
 // What the medium scatters of the light of the surroundings towards the eye. Needs lib/airlight.glsl, for LIGHT_KIND 0 without a boundary.
 
+#if EYE_CURVES
+#include "lib/curveNodes.glsl"
+#include "lib/weighted.glsl"
+#include "lib/eyeCurves.glsl"
+#endif
+
 // Of the constituents that are the same everywhere, 0, or of those that follow a layer, 1 and 2: where density is 1, a unit of length.
 vec3 ambientOf(int group, vec3 d) {
   int first = AMBIENT_TERMS * group;
@@ -9,7 +15,12 @@ vec3 ambientOf(int group, vec3 d) {
   return max(sum, vec3(0.0));
 }
 
-Airlight ambientLightOf(Ray ray) {
+// Of the ray through a window position.
+Airlight ambientLightOf(vec2 position) {
+  Ray ray = cameraRay(position);
+#if EYE_CURVES
+  startEyePath(position, ray);
+#endif
   Airlight light = airlightOf(ray);
 #if HEIGHT
   light.phases.even = ambientOf(0, ray.direction);
@@ -36,4 +47,13 @@ float occlusionAt(vec2 windowPosition) {
   vec2 at = windowPosition / vec2(frameSize) * vec2(occlusionSize) - 0.5, f = fract(at);
   ivec2 low = ivec2(floor(at));
   return mix(mix(occlusionTexel(low), occlusionTexel(low + ivec2(1, 0)), f.x), mix(occlusionTexel(low + ivec2(0, 1)), occlusionTexel(low + 1), f.x), f.y);
+}
+
+// Of a stretch of that ray, as it comes to the eye.
+void addAmbient(Airlight light, float s0, float s1, inout vec3 sum) {
+#if EYE_CURVES
+  addSeen(light, s0, s1, 1.0, 0.0, sum);
+#else
+  addAirlight(light, s0, s1, 1.0, sum);
+#endif
 }

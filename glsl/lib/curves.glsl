@@ -3,51 +3,9 @@
 // transmittance's mean and first moment stand for it, exact for its lines between nodes.
 //
 // ROW_CURVES: with the cells of the slice's row and a tree over them (curveCells.frag, curveTree.frag). All rays of the slice run along
-// it: what lies before the first segment, or behind the last, is taken whole.
+// it: what lies before the first segment, or behind the last, is taken whole. Needs lib/curveNodes.glsl.
 
 uniform usampler2DArray curves; // glsl/public/avsmLookup.glsl
-
-struct CurveNodes {
-  vec4 depths, passed; // nearest first; the last one again where a texel holds only two
-};
-
-CurveNodes curveNodes(ivec3 texel, int i) {
-  uvec4 stored = texelFetch(curves, ivec3(texel.xy, texel.z * texelsPerCurve + i), 0);
-  if (curvesPacked != 0) return CurveNodes(vec4(stored >> 16u) * (1.0 / 65535.0), vec4(stored & 0xFFFFu) * (1.0 / 65535.0));
-  vec4 nodes = uintBitsToFloat(stored);
-  return CurveNodes(nodes.xzzz, nodes.ywww);
-}
-
-// Where a curve begins to fall, where it ends, and what passes from there on.
-vec3 curveEnds(ivec3 texel) {
-  CurveNodes last = curveNodes(texel, texelsPerCurve - 1);
-  return vec3(curveNodes(texel, 0).depths.x, last.depths.w, last.passed.w);
-}
-
-// Adds the part of the line from node a to node b (depth, transmittance) between two depths to an integral and a first moment.
-void addLine(vec2 a, vec2 b, float low, float high, inout vec2 sum) {
-  float from = clamp(a.x, low, high), to = clamp(b.x, low, high);
-  if (!(to > from)) return;
-  float slope = (b.y - a.y) / (b.x - a.x), halfLength = 0.5 * (high - low), middle = 0.5 * (low + high);
-  float va = a.y + slope * (from - a.x), vb = a.y + slope * (to - a.x);
-  float xa = (from - middle) / halfLength, xb = (to - middle) / halfLength;
-  sum += (to - from) * vec2(0.5 * (va + vb), (va * xa + (va + vb) * (xa + xb) + vb * xb) / 6.0);
-}
-
-// Mean transmittance between two depths, low < high, and its first moment (from -1 to 1).
-vec2 curveBetween(ivec3 texel, float low, float high) {
-  vec2 sum = vec2(0.0), before = vec2(-1e9, 1.0);
-  for (int i = 0; i < texelsPerCurve && before.x < high; ++i) {
-    CurveNodes nodes = curveNodes(texel, i);
-    for (int k = 0; k < 4; ++k) {
-      vec2 node = vec2(nodes.depths[k], nodes.passed[k]);
-      addLine(before, node, low, high, sum);
-      before = node;
-    }
-  }
-  addLine(before, vec2(1e9, before.y), low, high, sum);
-  return sum / (high - low);
-}
 
 // The two texels of a cell beside a line, and the weight of the second.
 ivec3 cellTexel(bool alongX, bool mirrored, int view, int cell, int across) {
@@ -58,7 +16,8 @@ ivec3 cellTexel(bool alongX, bool mirrored, int view, int cell, int across) {
 // Ends of both texels' curves: where the first begins, where the last ends, what passes behind both.
 vec3 cellEnds(bool alongX, bool mirrored, int view, int cell, float across) {
   float at = across - 0.5, low = floor(at);
-  vec3 a = curveEnds(cellTexel(alongX, mirrored, view, cell, int(low))), b = curveEnds(cellTexel(alongX, mirrored, view, cell, int(low) + 1));
+  vec3 a = curveEnds(curves, texelsPerCurve, curvesPacked, cellTexel(alongX, mirrored, view, cell, int(low)));
+  vec3 b = curveEnds(curves, texelsPerCurve, curvesPacked, cellTexel(alongX, mirrored, view, cell, int(low) + 1));
   return vec3(min(a.x, b.x), max(a.y, b.y), mix(a.z, b.z, at - low));
 }
 
@@ -112,7 +71,7 @@ vec2 cellPassed(ViewSegment segment, int cell, float u0, float u1) {
   vec2 passed = vec2(0.0);
   for (int k = 0; k < 2; ++k) {
     ivec3 texel = cellTexel((curveLine.turned & 1) == 0, curveLine.turned > 1, segment.view, cell, int(low) + k);
-    passed += (k == 0 ? 1.0 - (at - low) : at - low) * curveBetween(texel, nearer, farther);
+    passed += (k == 0 ? 1.0 - (at - low) : at - low) * curveBetween(curves, texelsPerCurve, curvesPacked, texel, nearer, farther);
   }
   return vec2(passed.x, depth1 < depth0 ? -passed.y : passed.y);
 }
@@ -176,10 +135,8 @@ void addCurved(Airlight light, ViewSegment segment, float u0, float u1, Visibili
     float sa = distanceAt(segment, u), sb = distanceAt(segment, next.to);
     u = next.to > u ? next.to : u1;
     if (!(sb > sa) || next.passed.x <= 0.0) continue;
-    // Its part of the visibility's line, times the transmittance's: a mean of t squared is a third.
-    float s0 = distanceAt(segment, u0), s1 = distanceAt(segment, u1), inverse = 1.0 / max(s1 - s0, 1e-30);
-    Visibility own = mean + 3.0 * moment * ((sa + sb - s0 - s1) * inverse), ownMoment = moment * ((sb - sa) * inverse);
-    addShared(light, segment, sa, sb, own * next.passed.x + 3.0 * ownMoment * next.passed.y, own * next.passed.y + ownMoment * next.passed.x, sum);
+    VisibilityLine own = dimmedBy(partOf(VisibilityLine(mean, moment), distanceAt(segment, u0), distanceAt(segment, u1), sa, sb), next.passed);
+    addShared(light, segment, sa, sb, own.mean, own.moment, sum);
   }
 }
 

@@ -2,9 +2,37 @@
 // texels and depth, a + s b in homogeneous texel space: along the line the receiver's depth is linear in the line's own
 // parameter u, only s needs the rational map.
 //
-// SHADOW_VIEWS: 0 no shadow map, 1 one view, 2 several. SHADOW_ARRAY, FILTER_BILINEAR, GLASS, CURVES: 0 or 1.
+// SHADOW_VIEWS: 0 no shadow map, 1 one view, 2 several. SHADOW_ARRAY, FILTER_BILINEAR, GLASS, CURVES, EYE_CURVES: 0 or 1.
 
 #define FADES (SHADOW_VIEWS == 2 && LIGHT_KIND == 0) // cascades may fade into one another
+
+#if CURVES || EYE_CURVES
+#include "lib/curveNodes.glsl"
+#endif
+#if SHADOW_VIEWS > 0 || EYE_CURVES
+#include "lib/weighted.glsl"
+#endif
+#if EYE_CURVES
+#include "lib/eyeCurves.glsl"
+#elif SHADOW_VIEWS > 0
+void addSeen(Airlight light, float s0, float s1, Visibility mean, Visibility moment, inout Light sum) { addWeighted(light, s0, s1, mean, moment, sum); }
+#endif
+
+// Before any light of a ray is added.
+void startSeeing(vec2 position) {
+#if EYE_CURVES
+  startEyePath(position, cameraRay(position));
+#endif
+}
+
+// The light of a span that nothing blocks.
+void addLit(Airlight light, float s0, float s1, inout Light sum) {
+#if EYE_CURVES
+  addSeen(light, s0, s1, Visibility(1.0), Visibility(0.0), sum);
+#else
+  addAirlight(light, s0, s1, Visibility(1.0), sum);
+#endif
+}
 
 #if SHADOW_VIEWS > 0
 
@@ -322,6 +350,9 @@ void addTexels(Airlight light, ViewSegment segment, inout Light sum) {
       }
       float scale = 1.0 - walk.u + walk.u * segment.weight, change = abs(1.0 - segment.weight);
       uSteady = min(uSteady, walk.u + 0.1 * scale / max(change, 0.1 * scale));
+#if EYE_CURVES
+      uSteady = min(uSteady, parameterAt(segment, s + eyeSteadyLength(s)));
+#endif
       if (cuts > 0 && uSteady > walk.u && uSteady < uCell) {
         uEnd = uSteady;
         --cuts;
@@ -348,7 +379,7 @@ void addTexels(Airlight light, ViewSegment segment, inout Light sum) {
 #if !FILTER_BILINEAR && !GLASS
     weight = 1.0; // lit or dark
 #endif
-#if FADES || CURVES
+#if FADES || CURVES || EYE_CURVES
     addSpan(light, segment, begin, end, weight, Visibility(0.0), sum);
 #else
     addAirlight(light, distanceAt(segment, begin), distanceAt(segment, end), weight, sum);

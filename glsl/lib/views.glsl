@@ -73,9 +73,10 @@ int fadeInto(int owner, Ray ray, float s0, float s1, float s, inout float end, o
 
 Light shadowedLight(vec2 position, float s0, float s1, ivec2 views, bool outside, int slice) {
   Light sum = Light(0.0);
+  startSeeing(position);
   Airlight light = airlightOf(cameraRay(position));
   litRange(light, s0, s1);
-  addAirlight(light, s0, s1, Visibility(1.0), sum);
+  addLit(light, s0, s1, sum);
   return sum;
 }
 
@@ -85,6 +86,7 @@ Light shadowedLight(vec2 position, float s0, float s1, ivec2 views, bool outside
   Light sum = Light(0.0);
   if (s1 > s0) {
     Ray ray = cameraRay(position);
+    startSeeing(position);
     Airlight light = airlightOf(ray);
     litRange(light, s0, s1);
     vec2 own = viewInterval(0, ray, s0, s1, false);
@@ -94,7 +96,7 @@ Light shadowedLight(vec2 position, float s0, float s1, ivec2 views, bool outside
     vec2 behind = isLitOutside != 0 ? vec2(own.y, s1) : vec2(0.0);
     for (int k = 0; k < 2; ++k) {
       vec2 span = k == 0 ? before : behind;
-      if (outside) addAirlight(light, span.x, span.y, Visibility(1.0), sum);
+      if (outside) addLit(light, span.x, span.y, sum);
     }
     if (own.y > own.x) addOwned(light, viewSegment(0, ray, own.x, own.y, vec2(1.0)), slice, sum);
   }
@@ -111,6 +113,7 @@ vec2 ownInterval(int owner, Ray ray, float s0, float s1) {
 
 Light shadowedLight(vec2 position, float s0, float s1, ivec2 views, bool outside, int slice) {
   Light sum = Light(0.0);
+  startSeeing(position);
   float s = s0;
   int turn = 0; // of the two views that share a fade
   for (int guard = 0; guard < kMostPieces && s < s1; ++guard) {
@@ -139,7 +142,7 @@ Light shadowedLight(vec2 position, float s0, float s1, ivec2 views, bool outside
 #if FADES
       if (inView && cascadeFade > 0.0) next = fadeInto(owner, ray, first, last, s, end, weight);
 #endif
-      if (outside && !inView && (owner >= 0 || litOutside)) addAirlight(light, s, end, Visibility(1.0), sum);
+      if (outside && !inView && (owner >= 0 || litOutside)) addLit(light, s, end, sum);
       int candidate = turn == 0 ? owner : next;
       share = turn == 0 ? weight : 1.0 - weight;
       if (inView && share != vec2(0.0) && candidate >= views.x && candidate < views.x + views.y) view = candidate;

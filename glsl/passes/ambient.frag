@@ -20,7 +20,7 @@ layout(location = 1) out vec4 outTransmittance;
 void main() {
   vec3 transmittance = vec3(0.0), sum = vec3(0.0);
   Ray ray = cameraRay(unjittered(gl_FragCoord.xy));
-  Airlight light = ambientLightOf(ray);
+  Airlight light = ambientLightOf(unjittered(gl_FragCoord.xy));
   float last = -1.0; // most of a pixel's samples end where one before them does
   vec3 passed = vec3(0.0), own = vec3(0.0);
   for (int k = 0; k < depthSampleCount; ++k) {
@@ -28,7 +28,7 @@ void main() {
     if (end != last) {
       passed = transmittanceTo(ray, end);
       own = vec3(0.0);
-      addAirlight(light, 0.0, min(end, visibleEnd), 1.0, own);
+      addAmbient(light, 0.0, min(end, visibleEnd), own);
       last = end;
     }
     transmittance += passed / float(depthSampleCount);

@@ -11,6 +11,7 @@ struct ViewSegment {
   vec3 p0, p1;
 };
 
+#include "lib/curveNodes.glsl"
 #include "lib/curves.glsl"
 
 layout(location = 0) out vec4 outEnds;

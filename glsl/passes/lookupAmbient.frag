@@ -11,6 +11,6 @@ layout(location = 0) out vec4 outInscatter;
 void main() {
   LookupPart part = lookupPart();
   vec3 sum = vec3(0.0);
-  if (part.to > part.from) addAirlight(ambientLightOf(cameraRay(part.position)), part.from, min(part.to, visibleEnd), 1.0, sum);
+  if (part.to > part.from) addAmbient(ambientLightOf(part.position), part.from, min(part.to, visibleEnd), sum);
   outInscatter = vec4(occlusionAt(part.position + jitter) * min(ambientScale * sum, vec3(lightCeiling)), 0.0);
 }

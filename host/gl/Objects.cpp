@@ -47,6 +47,8 @@ std::pair<GLenum, GLenum> transferFormatOf(GLenum internalFormat) {
   case GL_RGB32F:
   case GL_R11F_G11F_B10F:
     return {GL_RGB, GL_FLOAT};
+  case GL_RGBA32UI:
+    return {GL_RGBA_INTEGER, GL_UNSIGNED_INT};
   case GL_DEPTH24_STENCIL8:
     return {GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8};
   case GL_DEPTH32F_STENCIL8:

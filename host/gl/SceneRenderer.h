@@ -42,6 +42,9 @@ public:
   /// or a view has no end.
   void captureVolumes(const tyndall::Light& light, int size) { volumes_.capture(light, size); }
 
+  /// The same of smoke alone, which leaves no depth in the picture: strands do.
+  void captureSmoke(const tyndall::Light& light, int size) { volumes_.captureSmoke(light, size); }
+
   /// Draws the picture: linear radiance and depth. Lights are shadowed where they have a shadow map, and dimmed where
   /// they have curves. The medium, if given, attenuates point and spot lights on their way to the surfaces. Glass,
   /// blended surfaces and smoke leave no depth.

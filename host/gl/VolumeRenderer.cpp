@@ -18,10 +18,8 @@ void VolumeRenderer::set(std::vector<SmokeParticle> smoke, Strands strands) {
   }
 }
 
-void VolumeRenderer::capture(const tyndall::Light& light, int size) {
-  if (!smoke_ && !strands_) {
-    return;
-  }
+template <typename Draw>
+void VolumeRenderer::captureViews(const tyndall::Light& light, int size, const Draw& draw) {
   if (!gl().FramebufferParameteri) {
     throw Error("capture of smoke and strands: the context lacks glFramebufferParameteri, which came with OpenGL 4.3");
   }
@@ -36,16 +34,30 @@ void VolumeRenderer::capture(const tyndall::Light& light, int size) {
   gl().FramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_HEIGHT, size);
   gl().Viewport(0, 0, size, size);
   for (int view = 0; view < static_cast<int>(light.shadow.views.size()); ++view) {
-    const CaptureView captureView(light, view, size);
-    if (smoke_) {
-      smoke_->capture(captureView);
-    }
-    if (strands_) {
-      strands_->capture(captureView);
-    }
+    draw(CaptureView(light, view, size));
   }
   resetRenderState();
   gl().BindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void VolumeRenderer::capture(const tyndall::Light& light, int size) {
+  if (!smoke_ && !strands_) {
+    return;
+  }
+  captureViews(light, size, [&](const CaptureView& view) {
+    if (smoke_) {
+      smoke_->capture(view);
+    }
+    if (strands_) {
+      strands_->capture(view);
+    }
+  });
+}
+
+void VolumeRenderer::captureSmoke(const tyndall::Light& light, int size) {
+  if (smoke_) {
+    captureViews(light, size, [&](const CaptureView& view) { smoke_->capture(view); });
+  }
 }
 
 void VolumeRenderer::drawStrands(const CameraView& camera, const Illumination& illumination,

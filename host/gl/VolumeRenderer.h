@@ -11,11 +11,15 @@ public:
   /// See SceneRenderer.
   void set(std::vector<SmokeParticle> smoke, Strands strands);
   void capture(const tyndall::Light& light, int size);
+  void captureSmoke(const tyndall::Light& light, int size);
 
   void drawStrands(const CameraView& camera, const Illumination& illumination, const RenderTargets& targets);
   void drawSmoke(const CameraView& camera, const Illumination& illumination, const RenderTargets& targets);
 
 private:
+  template <typename Draw>
+  void captureViews(const tyndall::Light& light, int size, const Draw& draw);
+
   std::optional<SmokeRenderer> smoke_; ///< made, and its shaders compiled, when there first is any
   std::optional<StrandRenderer> strands_;
   GlFramebuffer withoutAttachments_;

@@ -52,17 +52,23 @@ nlohmann::ordered_json passesOf(const std::vector<tyndall::PassStatistics>& stat
   return passes;
 }
 
-/// "avsm": what smoke and strands cost, for each light.
-nlohmann::ordered_json volumeShadowsOf(const std::vector<VolumeShadowStatistics>& lights) {
+/// "avsm": what smoke and strands cost, for each light and the eye.
+nlohmann::ordered_json volumeShadowsOf(const std::vector<VolumeShadowStatistics>& maps) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const VolumeShadowStatistics& light : lights)
-    list.push_back({{"light", light.light},
-                    {"segments", light.avsm.segments},
-                    {"lost", light.avsm.lost},
-                    {"list_bytes", light.avsm.listBytes},
-                    {"curve_bytes", light.avsm.curveBytes},
-                    {"capture_ms", light.captureMilliseconds},
-                    {"passes", passesOf(light.avsm.passes)}});
+  for (const VolumeShadowStatistics& map : maps) {
+    nlohmann::ordered_json json;
+    if (map.light == VolumeShadowStatistics::kEye)
+      json["eye"] = true;
+    else
+      json["light"] = map.light;
+    json.update({{"segments", map.avsm.segments},
+                 {"lost", map.avsm.lost},
+                 {"list_bytes", map.avsm.listBytes},
+                 {"curve_bytes", map.avsm.curveBytes},
+                 {"capture_ms", map.captureMilliseconds},
+                 {"passes", passesOf(map.avsm.passes)}});
+    list.push_back(std::move(json));
+  }
   return list;
 }
 

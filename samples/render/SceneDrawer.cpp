@@ -1,6 +1,7 @@
 #include "SceneDrawer.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <gl/Driver.h>
 #include <gl/Pause.h>
@@ -106,6 +107,7 @@ void SceneDrawer::makeVolumeShadows(const settings::State& state, host::Notes& n
   avsm_ = {state.avsm, state.avsmSize, state.avsmNodes};
   volumeShadows_.reset();
   volumesKey_.clear();
+  eyeKey_.clear();
   if (!state.avsm) return;
   constexpr int kNeeded = 43;
   const int version = context_.glVersion();
@@ -306,6 +308,53 @@ void SceneDrawer::layOutMaps(const settings::State& state, tyndall::Frame& frame
     laidOutMaps_.push_back(shadowLayout_->layOut(light, state.shadowSize));
 }
 
+namespace {
+
+/// How far a box reaches along a camera's axis, from the eye or from an orthographic one's near plane.
+std::array<double, 2> reachOf(const host::Bounds& box, const tyndall::Camera& camera, bool reversed) {
+  const glm::dmat4 viewFromWorld = host::fromMat4(camera.viewFromWorld),
+                   viewFromClip = glm::inverse(host::fromMat4(camera.clipFromView));
+  const double nearest = reversed ? 1 : camera.clipDepth == tyndall::ClipDepth::ZeroToOne ? 0 : -1;
+  const glm::dvec4 near = viewFromClip * glm::dvec4(0, 0, nearest, 1);
+  const double begin = camera.clipFromView[15] != 0 ? -near.z / near.w : 0; // 0 in a perspective matrix
+  std::array<double, 2> reach = {tyndall::kInfinity, -tyndall::kInfinity};
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 p(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                       corner & 4 ? box.high.z : box.low.z);
+    const double distance = -(viewFromWorld * glm::dvec4(p, 1)).z - begin;
+    reach = {std::min(reach[0], distance), std::max(reach[1], distance)};
+  }
+  return reach;
+}
+
+} // namespace
+
+// What smoke leaves of the light behind it, between the planes that hold all of it.
+void SceneDrawer::seeThroughSmoke(const settings::State& state, const Moment& moment, tyndall::Frame& frame) {
+  frame.eyeCurves = {};
+  double near = tyndall::kInfinity, far = 0;
+  for (const host::SmokeEmitter& emitter : scene_.smoke) {
+    const auto reach = reachOf(host::smokeBounds(scene_, emitter, moment.seconds), frame.camera, state.reversedDepth);
+    near = std::min(near, reach[0]);
+    far = std::max(far, reach[1]);
+  }
+  constexpr double kNearest = 1e-4; // of the farthest
+  if (!volumeShadows_ || !state.eyeCurves || !(far > 0)) {
+    if (volumeShadows_) volumeShadows_->forgetEye();
+    eyeKey_.clear();
+    return;
+  }
+  std::vector<double> key = volumesKey_;
+  append(key, frame.camera.viewFromWorld);
+  append(key, frame.camera.clipFromView);
+  if (key != eyeKey_) {
+    eyeKey_.clear();
+    eyeCurves_ = volumeShadows_->before(*renderer_, frame.camera, std::max(near, kNearest * far), far);
+    eyeKey_ = std::move(key);
+  }
+  frame.eyeCurves = eyeCurves_;
+}
+
 // Smoke moves in every frame: all of the box around it may dim the light anew.
 std::vector<tyndall::MovingObject> SceneDrawer::movedObjects(const std::vector<glm::dmat4>& worldFromNode,
                                                              double seconds) const {
@@ -330,6 +379,7 @@ void SceneDrawer::draw(const settings::State& state, const Moment& moment, host:
   host::Pause::take();
   drawMaps(state, moment, worldFromNode, frame);
   jitterCamera(state, moment.jitterPlace, frame.camera);
+  seeThroughSmoke(state, moment, frame);
   const bool isFirst = pose_.empty();
   if (isFirst) addOnce(notes, host::adviceOn(scene_, worldFromNode, frame.camera));
   drawSurfaces(worldFromNode, sky, surfaces, frame);

@@ -93,6 +93,7 @@ private:
                     const tyndall::Frame& frame);
   void layOutMaps(const settings::State& state, tyndall::Frame& frame);
   void makeVolumeShadows(const settings::State& state, host::Notes& notes);
+  void seeThroughSmoke(const settings::State& state, const Moment& moment, tyndall::Frame& frame);
   std::vector<tyndall::MovingObject> movedObjects(const std::vector<glm::dmat4>& worldFromNode, double seconds) const;
 
   /// Of smoke's shadows, as State has them.
@@ -110,8 +111,10 @@ private:
   std::vector<double> skyKey_, volumesKey_, surfacesKey_; ///< all that they were made of; empty: nothing was
   glm::vec3 sky_{0};
   host::Notes skyNotes_;
-  std::vector<MappedLight> mapped_;              ///< of the last frame
-  std::vector<tyndall::AvsmCurves> curves_;      ///< of its lights
+  std::vector<MappedLight> mapped_;         ///< of the last frame
+  std::vector<tyndall::AvsmCurves> curves_; ///< of its lights
+  std::vector<double> eyeKey_;              ///< what eyeCurves_ was made of
+  tyndall::EyeCurves eyeCurves_;
   std::unique_ptr<VolumeShadows> volumeShadows_; ///< none without smoke and strands, or where they cast no shadow
   Avsm avsm_;                                    ///< that they were made with
   std::vector<host::Bounds> meshBounds_;

@@ -16,46 +16,60 @@ void require(const tyndall::Status& status) {
 
 void VolumeShadows::update(host::SceneRenderer& renderer, std::vector<tyndall::Light>& lights) {
   maps_.resize(lights.size());
-  for (std::size_t i = 0; i < lights.size(); ++i)
-    update(renderer, lights[i], maps_[i]);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    tyndall::Light& light = lights[i];
+    create(maps_[i], static_cast<int>(light.shadow.views.size()));
+    if (!maps_[i].avsm) continue;
+    capture(maps_[i], [&] { renderer.captureVolumes(light, size_); });
+    light.curves = maps_[i].avsm->curves();
+  }
 }
 
-void VolumeShadows::update(host::SceneRenderer& renderer, tyndall::Light& light, Map& map) const {
-  const int layers = static_cast<int>(light.shadow.views.size());
-  if (layers != map.layers) {
-    map = {};
-    map.layers = layers;
-    if (layers == 0) return;
-    tyndall::AvsmConfig config;
-    config.loader = loader_;
-    config.timing = timing_;
-    config.size = size_;
-    config.layers = layers;
-    config.nodes = nodes_;
-    tyndall::AvsmResult created = tyndall::Avsm::create(config);
-    require(created.status);
-    map.avsm = std::move(created.avsm);
-  }
-  if (!map.avsm) return;
-  // Lists grow to what the frame before needed: what is lost for want of room is captured once more.
+tyndall::EyeCurves VolumeShadows::before(host::SceneRenderer& renderer, const tyndall::Camera& camera,
+                                         double nearDistance, double farDistance) {
+  tyndall::Light eye;
+  require(tyndall::eyeLight(camera, nearDistance, farDistance, eye));
+  create(eye_, 1);
+  capture(eye_, [&] { renderer.captureSmoke(eye, size_); });
+  return {eye_.avsm->curves(), nearDistance, farDistance};
+}
+
+void VolumeShadows::create(Map& map, int layers) const {
+  if (layers == map.layers) return;
+  map = {};
+  map.layers = layers;
+  if (layers == 0) return;
+  tyndall::AvsmConfig config;
+  config.loader = loader_;
+  config.timing = timing_;
+  config.size = size_;
+  config.layers = layers;
+  config.nodes = nodes_;
+  tyndall::AvsmResult created = tyndall::Avsm::create(config);
+  require(created.status);
+  map.avsm = std::move(created.avsm);
+}
+
+// Lists grow to what the frame before needed: what is lost for want of room is captured once more.
+void VolumeShadows::capture(Map& map, const std::function<void()>& draw) const {
   for (int attempt = 0; attempt < 2; ++attempt) {
     require(map.avsm->begin());
     host::gl().Finish();
     const auto start = std::chrono::steady_clock::now();
-    renderer.captureVolumes(light, size_);
+    draw();
     host::gl().Finish();
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
     map.captureMilliseconds = time.count();
     require(map.avsm->resolve());
     if (map.avsm->statistics().lost == 0) break;
   }
-  light.curves = map.avsm->curves();
 }
 
 std::vector<VolumeShadowStatistics> VolumeShadows::statistics() const {
   std::vector<VolumeShadowStatistics> all;
   for (std::size_t i = 0; i < maps_.size(); ++i)
     if (maps_[i].avsm) all.push_back({static_cast<int>(i), maps_[i].captureMilliseconds, maps_[i].avsm->statistics()});
+  if (eye_.avsm) all.push_back({VolumeShadowStatistics::kEye, eye_.captureMilliseconds, eye_.avsm->statistics()});
   return all;
 }
 

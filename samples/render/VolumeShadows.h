@@ -1,6 +1,7 @@
-// Adaptive volumetric shadow maps of a frame's lights: what smoke and strands let through.
+// Adaptive volumetric shadow maps of a frame's lights, and of its eye: what smoke and strands let through.
 #pragma once
 
+#include <functional>
 #include <gl/SceneRenderer.h>
 #include <memory>
 #include <tyndall/avsm.h>
@@ -8,9 +9,10 @@
 
 namespace render {
 
-/// One light's.
+/// One light's, or the eye's.
 struct VolumeShadowStatistics {
-  int light = 0;                  ///< index into Frame::lights
+  static constexpr int kEye = -1;
+  int light = 0;                  ///< index into Frame::lights, or kEye
   double captureMilliseconds = 0; ///< wall time of the capture, begin() and resolve() apart
   tyndall::AvsmStatistics avsm;
 };
@@ -24,7 +26,14 @@ public:
   /// host::Error.
   void update(host::SceneRenderer& renderer, std::vector<tyndall::Light>& lights);
 
-  /// Of the last update(), for each light that has shadow views.
+  /// Captures the renderer's smoke before a camera, between two planes (tyndall::eyeLight()). Throws host::Error.
+  tyndall::EyeCurves before(host::SceneRenderer& renderer, const tyndall::Camera& camera, double nearDistance,
+                            double farDistance);
+
+  /// From now on there is none.
+  void forgetEye() { eye_ = {}; }
+
+  /// Of the last update(), for each light that has shadow views, and of what is before the eye.
   std::vector<VolumeShadowStatistics> statistics() const;
 
 private:
@@ -34,13 +43,15 @@ private:
     double captureMilliseconds = 0;
   };
 
-  void update(host::SceneRenderer& renderer, tyndall::Light& light, Map& map) const;
+  void create(Map& map, int layers) const;
+  void capture(Map& map, const std::function<void()>& draw) const;
 
   tyndall::GlLoader loader_;
   tyndall::PassTiming timing_;
   int size_;
   int nodes_;
   std::vector<Map> maps_;
+  Map eye_;
 };
 
 } // namespace render

@@ -123,6 +123,8 @@ const Table<State>& volumesTable() {
       {
           switchOf("avsm", &State::avsm, "smoke and strands cast shadows")
               .withOption("--no-avsm", OptionForm::FlagOff, "smoke and strands cast no shadows"),
+          switchOf("eyeCurves", &State::eyeCurves, "and smoke dims the shafts behind it")
+              .withOption("--no-eye-curves", OptionForm::FlagOff, "shafts shine through smoke before them"),
           number("avsmSize", &State::avsmSize, from(1, 4096), "texels per side of a light's map of smoke and strands")
               .withOption("--avsm-size")
               .withSlider(32, 1024, true),

@@ -189,6 +189,7 @@ const std::vector<Left>& leftToEngines() {
       {"Frame.lights", "a list of lightTable()"},
       {"Frame.medium", "mediumTable()"},
       {"Frame.ambient", "ambientTable()"},
+      {"Frame.eyeCurves", texture},
       {"Frame.settings", "settingsTable()"},
       {"Frame.output", texture},
       {"Frame.lookup", texture},

@@ -63,6 +63,7 @@ struct State {
   bool steadyShadows = false; ///< whether texels of directional lights' maps stay in place while the camera moves
   host::MapForm mapForm;      ///< in which the effect is handed shadow and glass maps
   bool avsm = true;           ///< whether smoke and strands cast shadows
+  bool eyeCurves = true;      ///< and smoke dims the shafts behind it
   int avsmSize = 256;         ///< texels per side
   int avsmNodes = 8;
   double smokeDensity = 1;    ///< times what the scene says

@@ -78,7 +78,7 @@ Rgb scatteredRadiance(const tyndall::Constituent& constituent, const tyndall::Am
   return sum;
 }
 
-Rgb ambientLight(const tyndall::Medium& medium, const tyndall::Ambient& ambient, const Ray& ray, double end) {
+Airlight ambientAirlight(const tyndall::Medium& medium, const tyndall::Ambient& ambient, const Ray& ray) {
   std::vector<Rgb> radiances;
   for (const tyndall::Constituent& constituent : medium.constituents)
     radiances.push_back(scatteredRadiance(constituent, ambient, ray.direction));
@@ -91,7 +91,11 @@ Rgb ambientLight(const tyndall::Medium& medium, const tyndall::Ambient& ambient,
       for (int c = 0; c < 3; ++c)
         if (together[c] < 0 && (!isLayered(medium) || medium.constituents[k].layer == layer)) radiances[k][c] = 0;
   }
-  return Airlight(medium, radiances, ray).span(0, end);
+  return {medium, radiances, ray};
+}
+
+Rgb ambientLight(const tyndall::Medium& medium, const tyndall::Ambient& ambient, const Ray& ray, double end) {
+  return ambientAirlight(medium, ambient, ray).span(0, end);
 }
 
 double openShare(const Occlusion& occlusion, double x, double y) {

@@ -1,7 +1,7 @@
 // Light of the surroundings along one ray, in double precision: phase functions are integrated over the sphere.
 #pragma once
 
-#include "Ray.h"
+#include "Optics.h"
 
 #include <tyndall/tyndall.h>
 #include <vector>
@@ -19,7 +19,10 @@ Rgb radianceFrom(const tyndall::Ambient& ambient, const glm::dvec3& side);
 Rgb scatteredRadiance(const tyndall::Constituent& constituent, const tyndall::Ambient& ambient,
                       const glm::dvec3& direction);
 
-/// What the medium adds of it along a ray up to `end`, which may be infinite.
+/// What the medium scatters of it along a ray.
+Airlight ambientAirlight(const tyndall::Medium& medium, const tyndall::Ambient& ambient, const Ray& ray);
+
+/// What it adds up to `end`, which may be infinite.
 Rgb ambientLight(const tyndall::Medium& medium, const tyndall::Ambient& ambient, const Ray& ray, double end);
 
 /// Values of an image over the frame, row 0 at the bottom.

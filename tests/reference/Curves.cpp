@@ -83,4 +83,26 @@ double dimming(const CurveMap& map, const tyndall::Light& light, const glm::dvec
   return 1;
 }
 
+EyeDimming::EyeDimming(const EyeCurveMap& map, double x, double y, double advance) : map_(map), advance_(advance) {
+  const int size = map.map.size;
+  const glm::dvec2 at(x * size - 0.5, y * size - 0.5), low = glm::floor(at), f = at - low;
+  for (int k = 0; k < 4; ++k) {
+    const glm::ivec2 step(k & 1, k >> 1);
+    const glm::ivec2 texel = glm::clamp(glm::ivec2(low) + step, glm::ivec2(0), glm::ivec2(size - 1));
+    texels_.push_back(static_cast<std::size_t>(texel.y * size + texel.x));
+    weights_.push_back((step.x ? f.x : 1 - f.x) * (step.y ? f.y : 1 - f.y));
+    for (const glm::dvec2& node : map.map.curves[texels_.back()])
+      bends_.push_back((map.near + node.x * (map.far - map.near)) / advance);
+  }
+  std::sort(bends_.begin(), bends_.end());
+}
+
+double EyeDimming::at(double s) const {
+  const double depth = (s * advance_ - map_.near) / (map_.far - map_.near);
+  double sum = 0;
+  for (std::size_t k = 0; k < texels_.size(); ++k)
+    sum += weights_[k] * onCurve(map_.map.curves[texels_[k]], depth);
+  return sum;
+}
+
 } // namespace reference

@@ -29,4 +29,31 @@ struct CurveMap {
 /// texels are weighted linearly.
 double dimming(const CurveMap& map, const tyndall::Light& light, const glm::dvec3& point, const glm::dvec3& direction);
 
+/// Curves that were captured from a camera (Frame::eyeCurves): depth is linear along the view's axis, from `near` to
+/// `far` from the eye or from an orthographic camera's near plane.
+struct EyeCurveMap {
+  CurveMap map; ///< size 0: nothing stands before the eye
+  double near = 0, far = 1;
+};
+
+/// What passes along a ray through a place of the image, 0 to 1 across and up, at so many depths as curves bend at:
+/// between two of them it changes evenly. Bilinear between texel centres.
+class EyeDimming {
+public:
+  /// advance: axial distance that a unit of the ray's length is.
+  EyeDimming(const EyeCurveMap& map, double x, double y, double advance);
+
+  /// Distances along the ray, ascending.
+  const std::vector<double>& bends() const { return bends_; }
+
+  double at(double s) const;
+
+private:
+  const EyeCurveMap& map_;
+  double advance_;
+  std::vector<std::size_t> texels_;
+  std::vector<double> weights_;
+  std::vector<double> bends_;
+};
+
 } // namespace reference

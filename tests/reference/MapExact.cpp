@@ -42,7 +42,8 @@ void requireConsistent(const MapScene& scene) {
 /// All that does not depend on the pixel.
 class Renderer {
 public:
-  explicit Renderer(const MapScene& scene) : scene_(scene), rays_(scene.camera, scene.width, scene.height) {
+  explicit Renderer(const MapScene& scene)
+      : scene_(scene), rays_(scene.camera, scene.width, scene.height), axis_(axisOf(scene.camera)) {
     requireConsistent(scene);
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
       lights_.push_back(prepareLight(scene.lights[i], scene.shadows.empty() ? none_ : scene.shadows[i], scene.filter));
@@ -71,31 +72,83 @@ private:
     const double end = std::isinf(hit) ? scene_.medium.farDistance : std::max(0.0, hit);
     PixelAnswer answer{Rgb(0), transmittance(scene_.medium, ray, end)};
     if (!scene_.medium.dimsBackground) answer.transmittance = Rgb(1);
-    if (isLit(scene_.ambient))
-      answer.inscatter += ambientLight(scene_.medium, scene_.ambient, ray, end) *
-                          openShare(scene_.occlusion, (x + 0.5) / scene_.width, (y + 0.5) / scene_.height);
-    for (std::size_t i = 0; i < lights_.size(); ++i) {
-      const Airlight airlight(scene_.medium, scene_.lights[i], ray);
-      answer.inscatter += lightOf(i, airlight, ray, end);
+    const Lights lights = lightsAlong(x, y, ray);
+    if (scene_.eyeCurves.map.size == 0) {
+      answer.inscatter = lightOf(lights, ray, 0, end, end);
+      return answer;
     }
+    const double advance = glm::dot(ray.direction, axis_);
+    const EyeDimming dimming(scene_.eyeCurves, (x + 0.5) / scene_.width, (y + 0.5) / scene_.height, advance);
+    double from = 0;
+    const auto addUpTo = [&](double to) {
+      constexpr double kSteps = 128; // while all is dimmed away
+      const double change = std::abs(dimming.at(to) - dimming.at(from));
+      const int steps = 1 + static_cast<int>(std::ceil(kSteps * change));
+      const double step = (to - from) / steps;
+      for (int k = 0; k < steps && to > from; ++k) {
+        const double begin = from + k * step, behind = k + 1 == steps ? to : begin + step;
+        const double passed = dimming.at(std::isinf(behind) ? 1e30 : 0.5 * (begin + behind));
+        answer.inscatter += passed * lightOf(lights, ray, begin, behind, end);
+      }
+      from = to;
+    };
+    for (const double bend : dimming.bends())
+      if (bend > from && bend < end) addUpTo(bend);
+    addUpTo(end);
     return answer;
   }
 
-  Rgb lightOf(std::size_t i, const Airlight& airlight, const Ray& ray, double end) const {
-    if (scene_.curves.empty() || scene_.curves[i].size == 0)
-      return shadowedInscatter(lights_[i], airlight, ray, 0, end);
-    constexpr int kSteps = 2000;
+  /// Of the surroundings, times the share that is open, and of the lights.
+  struct Lights {
+    std::vector<Airlight> surroundings, lights;
+    double open = 1;
+  };
+
+  Lights lightsAlong(int x, int y, const Ray& ray) const {
+    Lights along;
+    if (isLit(scene_.ambient)) {
+      along.surroundings.push_back(ambientAirlight(scene_.medium, scene_.ambient, ray));
+      along.open = openShare(scene_.occlusion, (x + 0.5) / scene_.width, (y + 0.5) / scene_.height);
+    }
+    for (const tyndall::Light& light : scene_.lights)
+      along.lights.emplace_back(scene_.medium, light, ray);
+    return along;
+  }
+
+  /// Between two places of a ray that ends at `end`.
+  Rgb lightOf(const Lights& lights, const Ray& ray, double from, double to, double end) const {
     Rgb sum(0);
-    for (int k = 0; k < kSteps; ++k) {
-      const double from = end * k / kSteps, to = end * (k + 1) / kSteps;
-      sum += shadowedInscatter(lights_[i], airlight, ray, from, to) *
-             dimming(scene_.curves[i], scene_.lights[i], ray.at(0.5 * (from + to)), ray.direction);
+    for (const Airlight& airlight : lights.surroundings)
+      sum += lights.open * airlight.span(from, to);
+    for (std::size_t i = 0; i < lights.lights.size(); ++i)
+      sum += lightOf(i, lights.lights[i], ray, from, to, end);
+    return sum;
+  }
+
+  Rgb lightOf(std::size_t i, const Airlight& airlight, const Ray& ray, double from, double to, double end) const {
+    if (scene_.curves.empty() || scene_.curves[i].size == 0)
+      return shadowedInscatter(lights_[i], airlight, ray, from, to);
+    constexpr double kSteps = 2000; // of the whole ray
+    const int steps = 1 + static_cast<int>(std::ceil(kSteps * (to - from) / end));
+    Rgb sum(0);
+    for (int k = 0; k < steps; ++k) {
+      const double begin = from + (to - from) * k / steps, behind = from + (to - from) * (k + 1) / steps;
+      sum += shadowedInscatter(lights_[i], airlight, ray, begin, behind) *
+             dimming(scene_.curves[i], scene_.lights[i], ray.at(0.5 * (begin + behind)), ray.direction);
     }
     return sum;
   }
 
+  /// Along which distances to the eye are measured.
+  static glm::dvec3 axisOf(const tyndall::Camera& camera) {
+    const glm::dmat4 view = glm::transpose(toMat4(camera.viewFromWorld));
+    const glm::dvec3 w(glm::transpose(toMat4(camera.clipFromView) * toMat4(camera.viewFromWorld))[3]);
+    return glm::normalize(w == glm::dvec3(0) ? -glm::dvec3(view[2]) : w);
+  }
+
   const MapScene& scene_;
   CameraRays rays_;
+  glm::dvec3 axis_;
   ShadowImage none_;
   std::vector<PreparedLight> lights_;
 };

@@ -36,6 +36,7 @@ struct MapScene {
   std::vector<tyndall::Light> lights; ///< texture names are not looked at, shadow.views and shadow.clipDepth are
   std::vector<ShadowImage> shadows;   ///< one a light, or none at all
   std::vector<CurveMap> curves;       ///< one a light, or none at all: in steps, not in closed form
+  EyeCurveMap eyeCurves;              ///< as curves
   tyndall::Medium medium;
   tyndall::Ambient ambient; ///< but for its texture:
   Occlusion occlusion;

@@ -438,6 +438,16 @@ struct MovingObject {
   MeshVertices mesh = {};
 };
 
+/// What smoke and hair before the eye leave of the light behind them: curves as Light::curves, but captured from the
+/// eye through eyeLight() (tyndall/avsm.h), jittered as the picture is. They dim the medium's light, of all lights and
+/// of the surroundings, by what stands before it, and nothing else: the engine draws smoke and hair over its picture by
+/// itself, before the effect. Low rank is Tree then, and a change of the curves draws all anew.
+struct EyeCurves {
+  AvsmCurves curves;       ///< of layer 0; texture 0: nothing stands before the eye
+  double nearDistance = 0; ///< where their depth is 0, as eyeLight() was given it,
+  double farDistance = 0;  ///< and 1
+};
+
 /// Textures of the engine's own to write instead of, or besides, blending into Frame::colour. GL_TEXTURE_2D, a float
 /// colour format (RGBA16F, RGBA32F, R11F_G11F_B10F, RGB16F, RGB32F), as large as colour.
 struct Output {
@@ -479,6 +489,7 @@ struct Frame {
   std::vector<Light> lights; ///< at most 16
   Medium medium;
   Ambient ambient;
+  EyeCurves eyeCurves;
   Settings settings;
   Output output;
   Lookup lookup;

@@ -1,5 +1,6 @@
 #include "tyndall/avsm.h"
 
+#include "CheckValues.h"
 #include "ContextWatch.h"
 #include "LoadFunctions.h"
 #include "PassRecorder.h"
@@ -12,6 +13,7 @@
 #include "gl/ProgramCache.h"
 #include "gl/ShaderSources.h"
 #include "gl/StateGuard.h"
+#include "optics/EyeLight.h"
 #include "optics/Matrices.h"
 
 #include <algorithm>
@@ -410,6 +412,13 @@ Status avsmDepth(const Light& light, int view, std::array<double, 4>& depth) {
   const optics::DepthPlane plane = optics::linearDepth(light, view);
   if (!plane.exists) return refuse("its far plane must not be at infinity");
   depth = {plane.coefficients.x, plane.coefficients.y, plane.coefficients.z, plane.coefficients.w};
+  return {};
+}
+
+Status eyeLight(const Camera& camera, double nearDistance, double farDistance, Light& light) {
+  if (Status s = checkCamera(camera); !s) return s;
+  if (Status s = checkEyePlanes(camera, nearDistance, farDistance); !s) return s;
+  light = optics::eyeLight(camera, nearDistance, farDistance);
   return {};
 }
 

@@ -1,6 +1,7 @@
 #include "optics/Blocks.h"
 
 #include "optics/EngineDepth.h"
+#include "optics/EyeLight.h"
 #include "optics/HeightFog.h"
 #include "optics/Matrices.h"
 
@@ -119,6 +120,23 @@ void setLookup(blocks::FrameBlock& block, const Lookup& lookup, const glm::ivec3
   block.lookupGrowth = static_cast<float>(std::log2(lookup.farDistance / lookup.nearDistance) / (size.z - 1));
 }
 
+int texelsOf(const AvsmCurves& curves) { return curves.nodes / (curves.packed ? 4 : 2); }
+
+glm::vec4 curveDepthOf(const Light& light, int view, const glm::dvec3& origin) {
+  const glm::dvec4 depth = linearDepth(light, view).coefficients;
+  return {glm::dvec3(depth), glm::dot(depth, glm::dvec4(origin, 1))};
+}
+
+void setEyeCurves(blocks::FrameBlock& block, const Frame& frame, int size) {
+  const EyeCurves& eye = frame.eyeCurves;
+  if (size == 0) return;
+  block.eyeCurvesSize = size;
+  block.eyeCurvesPacked = eye.curves.packed ? 1 : 0;
+  block.texelsPerEyeCurve = texelsOf(eye.curves);
+  const Light light = eyeLight(frame.camera, eye.nearDistance, eye.farDistance);
+  block.eyeCurveDepth = curveDepthOf(light, 0, cameraOrigin(frame.camera));
+}
+
 } // namespace
 
 bool isWholeLayer(const Rectangle& r) { return r.x == 0 && r.y == 0 && r.width == 0 && r.height == 0; }
@@ -198,6 +216,7 @@ blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
   block.jitter = {frame.camera.jitter[0], frame.camera.jitter[1]};
   setEngineDepth(block, frame, sizes.depthRounding);
   setLookup(block, frame.lookup, sizes.lookup);
+  setEyeCurves(block, frame, sizes.eyeCurves);
   return block;
 }
 
@@ -319,13 +338,12 @@ blocks::LightBlock lightBlock(const Frame& frame, const Light& light, int shadow
     map.size = {texels.width, texels.height};
     map.layer = view.layer;
     if (curvesSize == 0) continue;
-    const glm::dvec4 depth = linearDepth(light, i).coefficients;
-    map.curveDepth = glm::vec4(glm::dvec3(depth), glm::dot(depth, glm::dvec4(origin, 1)));
+    map.curveDepth = curveDepthOf(light, i, origin);
   }
   if (curvesSize == 0) return block;
   block.curvesSize = curvesSize;
   block.curvesPacked = light.curves.packed ? 1 : 0;
-  block.texelsPerCurve = light.curves.nodes / (light.curves.packed ? 4 : 2);
+  block.texelsPerCurve = texelsOf(light.curves);
   return block;
 }
 

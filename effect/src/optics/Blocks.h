@@ -15,6 +15,7 @@ struct FrameSizes {
   float outputMax = 0;     ///< the same of Output::inscatter
   float depthRounding = 0; ///< share of a distance by which the depth's format rounds it
   glm::ivec3 lookup{0};    ///< texels and layers of Frame::lookup, 0 without
+  int eyeCurves = 0;       ///< texels per side of Frame::eyeCurves, 0 without
 };
 
 /// The point that shader positions are relative to: the eye, or the middle of the near plane if orthographic, where

@@ -26,6 +26,10 @@ bool usesTintSums(const LightPlanner& light) {
 // Technique::LowRank's tables, unless the light is one that it does not apply to.
 Tables planLowRank(LightPlanner& light) {
   if (light.frame.settings.technique != Technique::LowRank) return {};
+  if (light.variant.eyeCurves) {
+    light.skip("low rank", "what stands before the eye dims each ray in its own way");
+    return {};
+  }
   auto table = optics::makeLowRank(light.frame, light.light, light.geometry);
   if (!table) {
     light.skip(

@@ -76,7 +76,7 @@ void plan(LightPlanner& light) {
 
 bool tellsShares(const LightPlanner& light) {
   return isMade(light) && light.light.kind == LightKind::Directional && !light.light.boundary.enabled &&
-         light.variant.layers == kNoLayers;
+         light.variant.layers == kNoLayers && !light.variant.eyeCurves;
 }
 
 } // namespace tyndall::passes::slice_choice

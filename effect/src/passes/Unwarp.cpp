@@ -21,8 +21,10 @@ void planUnserved(LightPlanner& light, const Counting& counting) {
   if ((!shares && light.draws() == 1) || ahead) samples::fixUp(light, Pass::FixupAlongRow, options);
 }
 
-// Those pixels and the many between slices that disagree: along their own line.
+// Those pixels and the many between slices that disagree: along their own line or, behind what dims them before the
+// eye, texel by texel.
 void planBetweenSlices(LightPlanner& light) {
+  if (light.variant.eyeCurves) return samples::fixUp(light, Pass::FixupAllTexels, {{}, kOnlyUnserved});
   for (int draw = 0; draw < light.draws(); ++draw) {
     light.selectDraw(draw);
     if (light.draws() > 1) rows::plan(light); // only the last draw's rows are at hand

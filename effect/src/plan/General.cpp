@@ -57,8 +57,15 @@ bool seesLayers(std::string_view fragment, const Values& values) {
          values["LOW_RANK"] == 0 && values["SHARES"] == 0;
 }
 
+// Where what smoke and hair leave of light on its way to the eye is looked at: where light is integrated.
+bool seesEyeCurves(std::string_view fragment, const Values& values) {
+  return isOneOf(fragment, {"ambient", "exact", "lookupAmbient", "lookupLight", "march", "marchExtra"}) &&
+         values["SHARES"] == 0;
+}
+
 // One layer has programs of its own where most is marched: by the nearest texels, without glass and smoke.
 bool hasProgramsForOneLayer(std::string_view fragment, const Values& values) {
+  if (values["EYE_CURVES"] != 0) return false;
   if (isOneOf(fragment, {"ambient", "lookupAmbient"})) return values["HEIGHT"] == kOnlyLayer; // in closed form
   return isOneOf(fragment, {"exact", "fixup", "march", "marchExtra"}) && values["FILTER_BILINEAR"] == 0 &&
          values["GLASS"] == 0 && values["CURVES"] == 0 && values["SHADOW_VIEWS"] != 0;
@@ -69,15 +76,15 @@ bool isSeldomLookup(std::string_view fragment, const Values& values) {
   return isOneOf(fragment, {"lookupLight"}) && values["FILTER_BILINEAR"] + values["GLASS"] + values["CURVES"] > 0;
 }
 
-// Lights without a map, a medium with layers, low rank, the debug view of visits, pixels marched between slices or
-// where shares of the light do not tell, such look-ups, and mixtures.
+// Lights without a map, what smoke before the eye dims, a medium with layers, low rank, the debug view of visits,
+// pixels marched between slices or where shares of the light do not tell, such look-ups, and mixtures.
 bool isSeldom(std::string_view fragment, const Values& values) {
   if (!isOneOf(fragment, {"exact", "fixup", "lookupLight", "march", "marchExtra", "pixelTree"}))
     return values["ROW_HASHES"] != 0;
   if (values["SHADOW_VIEWS"] == 0) return true;
-  return isOneOf(fragment, {"fixup"}) || values["HEIGHT"] == kAnyLayers || values["LOW_RANK"] != 0 ||
-         values["COUNT_VISITS"] != 0 || values["SHARES"] != 0 || isSeldomLookup(fragment, values) ||
-         (isMixture(values) && !isOfSunbeams(fragment, values));
+  return isOneOf(fragment, {"fixup"}) || values["EYE_CURVES"] != 0 || values["HEIGHT"] == kAnyLayers ||
+         values["LOW_RANK"] != 0 || values["COUNT_VISITS"] != 0 || values["SHARES"] != 0 ||
+         isSeldomLookup(fragment, values) || (isMixture(values) && !isOfSunbeams(fragment, values));
 }
 
 // One view of an array may be the first of several: always where that costs little or is seldom asked for. A point
@@ -87,9 +94,11 @@ bool takesSeveral(std::string_view fragment, const Values& values) {
          isOneOf(fragment, {"exact", "rowDepths", "tintGroups"});
 }
 
-// Several views of one texture where that is seldom: the light's maps are copied into an array (plan/MapCopies.cpp).
+// A texture without layers where that is seldom: the light's maps are copied into an array (plan/MapCopies.cpp).
 bool isSeldomAtlas(std::string_view fragment, const Values& values) {
-  if (values["SHADOW_ARRAY"] != 0 || values["SHADOW_VIEWS"] != 2) return false;
+  if (values["SHADOW_ARRAY"] != 0) return false;
+  if (values["EYE_CURVES"] != 0) return true;
+  if (values["SHADOW_VIEWS"] != 2) return false;
   return isMixture(values) || values["HEIGHT"] != kNoLayers || values["LOW_RANK"] != 0 || values["COUNT_VISITS"] != 0 ||
          values["TINT_SUMS"] != 0 || isOneOf(fragment, {"fixup", "tintGroups"});
 }
@@ -112,6 +121,7 @@ void chooseMaps(std::string_view fragment, Values values) {
 
 gl::Definitions general(const std::string& fragment, gl::Definitions definitions) {
   Values values(definitions);
+  if (!seesEyeCurves(fragment, values)) values.set("EYE_CURVES", 0);
   if (!seesLayers(fragment, values)) values.set("HEIGHT", kNoLayers);
   if (isOneOf(fragment, {"ambient", "lookupAmbient", "lookupTransmittance", "transmittance"}))
     values.set("MONOCHROME", 0);

@@ -9,6 +9,7 @@ gl::Definitions definitionsOf(const LightVariant& v) {
                                  {"FILTER_BILINEAR", v.bilinear},
                                  {"GLASS", v.glass},
                                  {"CURVES", v.curves},
+                                 {"EYE_CURVES", v.eyeCurves},
                                  {"HEIGHT", v.layers},
                                  {"MONOCHROME", v.monochrome},
                                  {"COMPOSITE", v.composite}};
@@ -18,11 +19,14 @@ gl::Definitions definitionsOf(const LightVariant& v) {
 
 LightVariant served(LightVariant variant) {
   const int kinds = (variant.bilinear ? 1 : 0) + (variant.glass ? 1 : 0) + (variant.curves ? 1 : 0);
-  if (variant.layers != kNoLayers && (variant.shadowViews == 0 || kinds > 0)) variant.layers = kAnyLayers;
+  if (variant.layers != kNoLayers && (variant.shadowViews == 0 || kinds > 0 || variant.eyeCurves))
+    variant.layers = kAnyLayers;
   const bool isSunThroughGlass =
       variant.lightKind == 0 && !variant.bilinear && variant.layers == kNoLayers; // and smoke
   const bool isMixture = kinds > 1 && !isSunThroughGlass;
-  if (variant.layers == kAnyLayers || variant.shadowViews == 0 || isMixture) variant.monochrome = false;
+  if (variant.layers == kAnyLayers || variant.shadowViews == 0 || isMixture || variant.eyeCurves)
+    variant.monochrome = false;
+  if (variant.eyeCurves) variant.composite = false;
   return variant;
 }
 
@@ -44,11 +48,14 @@ std::vector<LightVariant> allLightVariants(bool dualSource) {
     v.lightKind = kind;
     v.layers = layers;
     add(v);
-    for (int bits = 0; bits < 16; ++bits) {
+    v.eyeCurves = true;
+    add(v);
+    for (int bits = 0; bits < 32; ++bits) {
       v.shadowArray = (bits & 1) != 0;
       v.bilinear = (bits & 2) != 0;
       v.glass = (bits & 4) != 0;
       v.curves = (bits & 8) != 0;
+      v.eyeCurves = (bits & 16) != 0;
       for (v.shadowViews = 1; v.shadowViews <= (kind != 2 ? 2 : 1); ++v.shadowViews)
         add(v);
     }

@@ -17,7 +17,8 @@ struct LightVariant {
   bool shadowArray = false;
   bool bilinear = false;
   bool glass = false;
-  bool curves = false; ///< smoke and hair dim the light (Light::curves)
+  bool curves = false;    ///< smoke and hair dim the light (Light::curves)
+  bool eyeCurves = false; ///< and what comes to the eye (Frame::eyeCurves)
   int layers = kNoLayers;
   bool monochrome = false;
   bool composite = false; ///< dual-source outputs of unwarp and transmittance instead of two targets
@@ -31,7 +32,8 @@ struct LightVariant {
 gl::Definitions definitionsOf(const LightVariant& variant);
 
 /// The one whose programs draw a variant: grey media have programs of their own where they save most, with a light of
-/// one filter, glass or smoke, or a sun of glass and smoke; media with one layer with a light of none of these.
+/// one filter, glass or smoke, or a sun of glass and smoke; media with one layer with a light of none of these. Before
+/// curves at the eye there are no others, and they write to two targets.
 LightVariant served(LightVariant variant);
 
 /// Every variant that a frame can ask for in a context with dual-source blending, or without.

@@ -11,15 +11,19 @@ namespace tyndall {
 
 namespace {
 
-// Several views of one texture are read as they are by all passes but the seldom ones (plan/General.cpp).
+// Several views of one texture are read as they are by all passes but the seldom ones (plan/General.cpp); behind what
+// dims light before the eye no texture is that has no layers.
 bool isSeldomAtlas(const Frame& frame, const Light& light) {
   const Settings& settings = frame.settings;
-  if (light.shadow.array || light.shadow.views.size() < 2) return false;
+  if (light.shadow.array) return false;
   const bool filters = settings.shadowFilter == ShadowFilter::Bilinear, glass = light.glass.colour != 0;
-  const int kinds = (filters ? 1 : 0) + (glass ? 1 : 0) + (light.curves.texture != 0 ? 1 : 0);
   const bool spreads = settings.technique == Technique::Epipolar && std::isfinite(settings.spreadThreshold);
+  const bool several = light.shadow.views.size() > 1, dims = frame.eyeCurves.curves.texture != 0;
+  const bool isExact = settings.technique == Technique::Exact || settings.debugView == DebugView::Difference;
+  if (dims) return several || filters || glass || spreads || isExact;
+  const int kinds = (filters ? 1 : 0) + (glass ? 1 : 0) + (light.curves.texture != 0 ? 1 : 0);
   const bool looksUp = settings.technique == Technique::LowRank || settings.debugView == DebugView::NodeVisits;
-  return kinds > 1 || spreads || optics::isLayered(frame.medium) || (looksUp && (filters || glass));
+  return several && (kinds > 1 || spreads || optics::isLayered(frame.medium) || (looksUp && (filters || glass)));
 }
 
 // Programs for filtered glass know of no rectangle that begins elsewhere than a layer (glsl/lib/shadowMap.glsl).

@@ -88,7 +88,7 @@ private:
 };
 
 Row Row::walksTexels() const {
-  return reads({R::ShadowMap, R::GlassColour, R::GlassDepth, R::Curves}).with([](PassRow& r) {
+  return reads({R::ShadowMap, R::GlassColour, R::GlassDepth, R::Curves, R::EyeCurves}).with([](PassRow& r) {
     r.walk = RayWalk::AllTexels;
   });
 }
@@ -97,7 +97,7 @@ Row Row::walksRows() const {
   return with([](PassRow& r) {
     r.walk = RayWalk::Row;
     for (const R resource : {R::ShadowMap, R::GlassColour, R::GlassDepth, R::Curves, R::CurveCells, R::CurveTree,
-                             R::RowDepths, R::RowShares, R::RowTree, R::RowMeans, R::RowMoments})
+                             R::EyeCurves, R::RowDepths, R::RowShares, R::RowTree, R::RowMeans, R::RowMoments})
       r.reads.emplace_back(resource);
   });
 }
@@ -123,6 +123,7 @@ std::vector<PassRow> makeRows() {
           .joins(kSumOfLights),
       Row(Pass::Ambient, "ambient", "passes/ambient.frag", S::Image)
           .readsIfThere({kDepthSideBySide, R::SceneDepthSamples, R::Occlusion})
+          .reads({R::EyeCurves})
           .walksOpen()
           .into(Into::Destination)
           .joins(kSumOfLights)
@@ -394,6 +395,7 @@ std::vector<PassRow> makeRows() {
           .joins(Joining::AddAll),
       Row(Pass::LookupAmbient, "look-up ambient", "passes/lookupAmbient.frag")
           .readsIfThere({R::Occlusion})
+          .reads({R::EyeCurves})
           .walksOpen()
           .writes({R::LookupSteps})
           .joins(Joining::AddAll)

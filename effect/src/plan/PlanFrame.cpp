@@ -76,6 +76,7 @@ LightVariant variantOf(const Frame& frame, const Light& light, bool dualSource, 
   LightVariant variant;
   variant.dualSource = dualSource;
   variant.layers = layersFor(frame.medium, light);
+  variant.eyeCurves = frame.eyeCurves.curves.texture != 0;
   variant.monochrome = optics::isMonochrome(frame.medium);
   variant.composite = direct;
   variant.lightKind = static_cast<int>(light.kind);
@@ -108,6 +109,8 @@ FramePlanner::FramePlanner(const PlanInputs& inputs, Allocator& allocator, Plann
                             inputs.textures.transmittance.format};
   passes_.variant.dualSource = inputs.tuning.compositing == Compositing::DualSource;
   passes_.variant.layers = optics::isLayered(frame_.medium) ? kAnyLayers : kNoLayers;
+  passes_.variant.eyeCurves = frame_.eyeCurves.curves.texture != 0;
+  passes_.board[Resource::EyeCurves] = frame_.eyeCurves.curves.texture;
   const FrameTextures::Lookup& lookup = inputs.textures.lookup;
   passes_.extent.lookup = {lookup.width, lookup.height};
   passes_.extent.lookupDepths = lookup.depths;
@@ -171,8 +174,10 @@ Destination FramePlanner::chooseDestination(bool changes) {
   to.ceiling = partOf(most, parts);
   const bool spreads = frame_.settings.technique == Technique::Epipolar &&
                        std::isfinite(frame_.settings.spreadThreshold); // several times the time: no programs for it
+  const bool dims = frame_.eyeCurves.curves.texture != 0;              // the same
   const bool blends = passes_.variant.dualSource;
-  if (output.inscatter == 0 && output.transmittance == 0 && !hasDebugView(frame_) && !apart && !spreads && blends)
+  if (output.inscatter == 0 && output.transmittance == 0 && !hasDebugView(frame_) && !apart && !spreads && !dims &&
+      blends)
     return to;
   to.inscatter = apart ? 0 : inscatter_.texture;
   to.transmittance = transmittance_.texture;
@@ -223,7 +228,8 @@ void FramePlanner::begin(const Destination& destination) {
                                                                  in_.textures.colour.max,
                                                                  in_.textures.inscatter.max,
                                                                  in_.textures.depthRounding,
-                                                                 {lookup.width, lookup.height, lookup.depths}}));
+                                                                 {lookup.width, lookup.height, lookup.depths},
+                                                                 in_.textures.eyeCurves}));
 }
 
 std::vector<DrawnLight> FramePlanner::lightsToDraw(const Frame& frame, const Destination& destination) {

@@ -106,6 +106,7 @@ constexpr ResourceRow kRows[] = {
     {"glass colour", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "the engine's"},
     {"glass depth", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "the engine's"},
     {"curves", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "smoke and hair: Light::curves"},
+    {"eye curves", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "the same before the eye"},
     {"occlusion", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "Ambient::occlusion"},
     {"image", kGiven, kGiven, always, always, none, none, Lifetime::Frame, "what a pass copies or shows"},
     {"empty", kR32, kR32, always, always, one, one, Lifetime::Frame, "what a sampler reads that has nothing to read"},

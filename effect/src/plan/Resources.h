@@ -20,6 +20,7 @@ enum class Resource {
   GlassColour,
   GlassDepth,
   Curves,
+  EyeCurves,
   Occlusion, // of the surroundings
   Image,
   // The effect's own.

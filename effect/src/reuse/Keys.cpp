@@ -31,7 +31,8 @@ auto fieldsOf(const Settings& s) {
 }
 
 auto fieldsOf(const LightVariant& v) {
-  return std::tie(v.lightKind, v.shadowViews, v.shadowArray, v.bilinear, v.glass, v.layers, v.monochrome, v.composite);
+  return std::tie(v.lightKind, v.shadowViews, v.shadowArray, v.bilinear, v.glass, v.eyeCurves, v.layers, v.monochrome,
+                  v.composite);
 }
 
 bool isStated(std::uint64_t version, std::uint64_t last) { return version != 0 && version == last; }
@@ -92,8 +93,8 @@ bool same(const LookupKey& a, const LookupKey& b) {
 }
 
 bool sameFrame(const FrameKey& a, const FrameKey& b) {
-  return same(a.block, b.block) && fieldsOf(a.settings) == fieldsOf(b.settings) && a.drawn == b.drawn &&
-         a.slicesBeyond == b.slicesBeyond;
+  return same(a.block, b.block) && same(a.eyeCurves, b.eyeCurves) && fieldsOf(a.settings) == fieldsOf(b.settings) &&
+         a.drawn == b.drawn && a.slicesBeyond == b.slicesBeyond;
 }
 
 } // namespace tyndall

@@ -56,6 +56,7 @@ struct FrameKey {
   glm::vec2 jitter{0};
   AmbientKey ambient;
   LookupKey lookup;
+  AvsmCurves eyeCurves;
   double slicesBeyond = 0; ///< pixels beyond the image
   Settings settings;
   std::vector<std::size_t> drawn; ///< indices of the lights

@@ -64,6 +64,7 @@ FrameKey FramePlanner::keyOf(const std::vector<DrawnLight>& drawn) const {
                {},
                ambientKey(),
                {frame_.lookup, in_.textures.lookup, in_.lookupWrite},
+               frame_.eyeCurves.curves,
                optics::slicesBeyond(frame_.camera),
                frame_.settings,
                {},

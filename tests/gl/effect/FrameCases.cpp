@@ -106,6 +106,8 @@ void addInputs(std::vector<FrameCase>& all) {
   lookup = make("low rank, look-up, glass", Technique::LowRank);
   lookup.lookup = lookup.glass = true;
   all.push_back(lookup);
+  all.push_back(make("epipolar, smoke before the eye, ambient light", Technique::Epipolar, kColour, {kSpot}));
+  all.back().smoke = all.back().ambient = true;
   FrameCase bright = make("epipolar, sum over what colour holds", Technique::Epipolar, kAll, {kSun, kSpot});
   bright.bright = true;
   all.push_back(bright);
@@ -324,7 +326,7 @@ Config configFor(const FrameCase& frameCase, GlLoader loader, PassTiming timing)
 }
 
 bool canDraw(const FrameCase& frameCase) {
-  const int needed = frameCase.curves ? 43 : frameCase.layout == Layout::CubeArray ? 40 : 33;
+  const int needed = frameCase.curves || frameCase.smoke ? 43 : frameCase.layout == Layout::CubeArray ? 40 : 33;
   return testContext().glVersion() >= needed;
 }
 
@@ -356,6 +358,7 @@ Stage::Stage(const FrameCase& frameCase, int width, int height, RigContext conte
     occlusion_ = floatTexture(GL_R32F, 3, 2, {0, 0.25F, 1, 0.75F, 0.5F, 1});
     frame.ambient.occlusion = {occlusion_.name(), 1};
   }
+  if (case_.smoke) frame.eyeCurves = {veil(), 1, 30};
   if (case_.lookup) {
     const std::vector<float> none(static_cast<std::size_t>(4 * kLookupWidth * kLookupHeight * kLookupDepths));
     for (host::GlTexture* texture : {&lookupLight_, &lookupPassed_})

@@ -25,8 +25,8 @@ struct FrameCase {
   FrameTargets targets = {};
   std::vector<tyndall::LightKind> lights = {tyndall::LightKind::Directional};
   tyndall::DebugView view = tyndall::DebugView::Composite;
-  bool glass = false, bilinear = false, curves = false, fog = false, ambient = false, lookup = false, spread = false,
-       chosen = false, bright = false, multisampled = false, versionedMesh = false;
+  bool glass = false, bilinear = false, curves = false, fog = false, ambient = false, lookup = false, smoke = false,
+       spread = false, chosen = false, bright = false, multisampled = false, versionedMesh = false;
   bool elsewhere = false; ///< the viewport is a part of larger textures, and of the depth not each pixel has a texel
   bool layered = false;   ///< targets are layers of arrays
   tyndall::Changes changes = tyndall::Changes::Unknown;

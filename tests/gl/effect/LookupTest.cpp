@@ -42,14 +42,6 @@ reference::ImageAnswer cutAt(tests::SceneRig& rig, double distance, Technique te
   return answer;
 }
 
-// Most of an image is there to be compared.
-double meanOf(const reference::Image& image) {
-  double sum = 0;
-  for (const double value : image.rgb)
-    sum += value;
-  return sum / static_cast<double>(image.rgb.size());
-}
-
 // Of a layer against exact that is cut there: no farther off than the tree's own picture, whose slices are up to half a
 // pixel and rows half a texel from a pixel's ray, by more than `more`.
 void checkAsTree(tests::SceneRig& rig, const tests::ShaftsLookup& layers, int layer, double more, double slack) {

@@ -51,6 +51,13 @@ inline reference::Image sumOf(const reference::Image& a, const reference::Image&
   return sum;
 }
 
+inline double meanOf(const reference::Image& image) {
+  double sum = 0;
+  for (const double value : image.rgb)
+    sum += value;
+  return sum / static_cast<double>(image.rgb.size());
+}
+
 // Null if there is none.
 inline const PassStatistics* passNamed(const Statistics& statistics, const std::string& name) {
   const auto found = std::find_if(statistics.passes.begin(), statistics.passes.end(),

@@ -278,6 +278,7 @@ reference::ImageAnswer SceneRig::reference() const {
   scene.lights = frame.lights;
   scene.shadows = images_;
   scene.curves = curves;
+  scene.eyeCurves = {eyeCurves, frame.eyeCurves.nearDistance, frame.eyeCurves.farDistance};
   scene.medium = frame.medium;
   scene.ambient = frame.ambient;
   scene.filter = frame.settings.shadowFilter;
@@ -349,6 +350,8 @@ void transformWorld(Frame& frame, double scale, const glm::dvec3& offset) {
       s = static_cast<float>(s / scale);
   for (float& a : frame.medium.absorption)
     a = static_cast<float>(a / scale);
+  frame.eyeCurves.nearDistance *= scale;
+  frame.eyeCurves.farDistance *= scale;
   frame.medium.farDistance *= scale;
   const double raised = glm::dot(glm::normalize(reference::toVec3(frame.medium.up)), offset);
   for (HeightLayer& layer : frame.medium.layers) {

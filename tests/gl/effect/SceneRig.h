@@ -76,6 +76,9 @@ public:
   /// Of each light, for the reference; the frame has their texture.
   std::vector<reference::CurveMap> curves;
 
+  /// Of Frame::eyeCurves, likewise: the frame has its planes, too.
+  reference::CurveMap eyeCurves;
+
   /// Of the frame's ambient light, for the reference; the frame has its texture.
   reference::Occlusion occlusion;
 

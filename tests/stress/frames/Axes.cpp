@@ -9,9 +9,9 @@ namespace stress {
 namespace {
 
 constexpr const char* kNames[] = {
-    "size",     "viewport", "lens",     "pose",     "world",      "surface", "depth-form", "lights", "places",
-    "cones",    "views",    "map-size", "texels",   "odd-texels", "layout",  "filter",     "medium", "far-distance",
-    "radiance", "glass",    "settings", "relation", "layers",     "ambient", "look-up"};
+    "size",     "viewport", "lens",     "pose",     "world",      "surface", "depth-form", "lights",    "places",
+    "cones",    "views",    "map-size", "texels",   "odd-texels", "layout",  "filter",     "medium",    "far-distance",
+    "radiance", "glass",    "settings", "relation", "layers",     "ambient", "look-up",    "eye-curves"};
 static_assert(std::size(kNames) == kAxes);
 
 // Steele et al. 2014, "Fast splittable pseudorandom number generators": the same on every machine.

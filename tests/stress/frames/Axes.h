@@ -30,13 +30,14 @@ enum class Axis {
   FarDistance, ///< where rays to the sky end
   Radiance,    ///< of the lights
   Glass,
-  Settings, ///< of the frame that is drawn by any settings
-  Relation, ///< by which change the picture must stay
-  Layers,   ///< of the medium, that thin out with height
-  Ambient,  ///< light of the surroundings
-  Lookup,   ///< Frame::lookup
+  Settings,  ///< of the frame that is drawn by any settings
+  Relation,  ///< by which change the picture must stay
+  Layers,    ///< of the medium, that thin out with height
+  Ambient,   ///< light of the surroundings
+  Lookup,    ///< Frame::lookup
+  EyeCurves, ///< Frame::eyeCurves
 };
-inline constexpr int kAxes = static_cast<int>(Axis::Lookup) + 1;
+inline constexpr int kAxes = static_cast<int>(Axis::EyeCurves) + 1;
 
 const char* nameOf(Axis axis);
 

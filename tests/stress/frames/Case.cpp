@@ -125,6 +125,26 @@ void makeLookup(Case& made, const AxisSet& simple) {
   made.lookupFar = made.lookupNear * random.logUniform(1.001, 1e4);
 }
 
+// In every fourth family something stands before the eye: curves of four nodes, 16 bits a number.
+void makeEyeCurves(Case& made, const AxisSet& simple) {
+  Random random(made.seed, Axis::EyeCurves), family = Random::ofFamily(made.seed, Axis::EyeCurves);
+  if (simple.has(Axis::EyeCurves) || !family.chance(0.25)) return;
+  made.eyeCurves.size = random.integer(1, 8);
+  const double most = random.uniform(); // of what each node lets through
+  for (int texel = 0; texel < made.eyeCurves.size * made.eyeCurves.size; ++texel) {
+    std::vector<glm::dvec2> curve;
+    glm::dvec2 node(random.chance(0.2) ? 0 : random.uniform(), 1);
+    for (int i = 0; i < 4; ++i) {
+      curve.push_back(glm::round(node * 65535.0) / 65535.0);
+      node.x += random.chance(0.2) ? 0 : (1 - node.x) * random.uniform();
+      node.y *= random.chance(0.1) ? 0 : random.uniform(1 - most, 1);
+    }
+    made.eyeCurves.curves.push_back(curve);
+  }
+  made.frame.eyeCurves.nearDistance = random.logUniform(1e-3, 10);
+  made.frame.eyeCurves.farDistance = made.frame.eyeCurves.nearDistance * random.logUniform(1.001, 1e4);
+}
+
 void makeSettings(Case& made, const AxisSet& simple) {
   Settings& settings = made.anySettings;
   if (Random random = Random::ofFamily(made.seed, Axis::Filter); !simple.has(Axis::Filter) && random.chance(0.4))
@@ -160,6 +180,7 @@ Case makeCase(std::uint64_t seed, const AxisSet& simple) {
   makeLayers(made, simple);
   makeAmbient(made, simple);
   makeLookup(made, simple);
+  makeEyeCurves(made, simple);
   makeSettings(made, simple);
   if (Random random = Random::ofFamily(seed, Axis::Relation); !simple.has(Axis::Relation))
     made.relation = static_cast<Relation>(random.integer(0, kRelations - 1));

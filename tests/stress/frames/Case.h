@@ -56,6 +56,7 @@ struct Case {
   bool hasOddTexels = false;   ///< NaN, infinite or outside [0, 1]
   glm::ivec3 lookup{0};        ///< texels and layers of a look-up; 0: none
   double lookupNear = 1, lookupFar = 2;
+  reference::CurveMap eyeCurves; ///< of four nodes; without texels: none
   tyndall::Settings anySettings; ///< valid ones, for a picture that needs not be good
   Relation relation = Relation::DoubledLight;
 };

@@ -42,6 +42,7 @@ CaseRig::CaseRig(const Case& made, Effect& effect) : frame(made.frame), made_(ma
   if (made.lookup.z > 0)
     lookup_.emplace(made.lookup.x, made.lookup.y, made.lookup.z,
                     tests::ShaftsLookup::Range{made.lookupNear, made.lookupFar});
+  uploadEyeCurves();
   maps_.reserve(made.maps.size());
   scene_.lights = frame.lights;
   for (std::size_t i = 0; i < made.maps.size(); ++i)
@@ -90,6 +91,22 @@ void CaseRig::uploadMaps(std::size_t light) {
   };
   readBack(shadow.texture, scene_.shadows.back().depth);
   if (!maps.image.glassDepth.empty()) readBack(frame.lights[light].glass.depth, scene_.shadows.back().glassDepth);
+}
+
+void CaseRig::uploadEyeCurves() {
+  const reference::CurveMap& map = made_.eyeCurves;
+  scene_.eyeCurves = {map, frame.eyeCurves.nearDistance, frame.eyeCurves.farDistance};
+  if (map.size == 0) return;
+  std::vector<GLuint> texels;
+  for (const std::vector<glm::dvec2>& curve : map.curves)
+    for (const glm::dvec2& node : curve) {
+      const glm::uvec2 bits(glm::round(node * 65535.0));
+      texels.push_back(bits.x << 16U | bits.y);
+    }
+  eyeCurves_ = host::makeTextureArray(GL_RGBA32UI, map.size, map.size, 1);
+  gl().TexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, map.size, map.size, 1, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+                     texels.data());
+  frame.eyeCurves.curves = {eyeCurves_.name(), 4, true, 0};
 }
 
 // From layer to layer light becomes more, and what is left of it less.

@@ -33,6 +33,7 @@ public:
 private:
   void uploadDepth(const std::vector<float>& depth, DepthForm form);
   void uploadMaps(std::size_t light);
+  void uploadEyeCurves();
   std::string faultOfLookup() const;
 
   const Case& made_;
@@ -41,7 +42,7 @@ private:
   reference::MapScene scene_;
   std::vector<tests::LaidMaps> maps_;
   std::optional<tests::ShaftsLookup> lookup_;
-  host::GlTexture depth_, inscatter_, transmittance_;
+  host::GlTexture depth_, inscatter_, transmittance_, eyeCurves_;
 };
 
 } // namespace stress

@@ -54,6 +54,8 @@ std::string describe(const Case& made) {
                         frame.medium.up[2], frame.medium.absorptionLayer);
   text += fmt::format("look-up {} x {} x {} from {:g} to {:g}\n", made.lookup.x, made.lookup.y, made.lookup.z,
                       made.lookupNear, made.lookupFar);
+  text += fmt::format("before the eye {} x {} curves from {:g} to {:g}\n", made.eyeCurves.size, made.eyeCurves.size,
+                      frame.eyeCurves.nearDistance, frame.eyeCurves.farDistance);
   text += fmt::format("ambient {}", textOf(frame.ambient.radiance));
   for (const Rgb& harmonic : frame.ambient.harmonics)
     text += " " + textOf(harmonic);

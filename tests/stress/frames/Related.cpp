@@ -49,6 +49,9 @@ void turn(Case& made, Relation relation) {
   made.distances = rearranged(made.distances, width, height, oldWidth, from);
   made.depth = rearranged(made.depth, width, height, oldWidth, from);
   made.isOdd = rearranged(made.isOdd, width, height, oldWidth, from);
+  const int size = made.eyeCurves.size;
+  made.eyeCurves.curves = rearranged(made.eyeCurves.curves, size, size, size,
+                                     [&](int x, int y) { return origin(relation, size, size, x, y); });
 }
 
 /// The most precise depth there is, of the distances that the old one holds.

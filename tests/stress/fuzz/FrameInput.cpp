@@ -273,6 +273,10 @@ tyndall::Frame frameOf(Numbers& numbers) {
     frame.lookup = {11, 12, scaled(numbers, -3, 9), 0};
     frame.lookup.farDistance = frame.lookup.nearDistance * scaled(numbers, 0, 4);
   }
+  if (numbers.below(4) == 1) {
+    frame.eyeCurves = {{13, 8, numbers.flag(), 0}, scaled(numbers, -3, 9), 0};
+    frame.eyeCurves.farDistance = frame.eyeCurves.nearDistance * scaled(numbers, 0, 4);
+  }
   return frame;
 }
 

@@ -174,6 +174,7 @@ TEST_CASE("a light with another map's size, program or smoke is another") {
                                                     [](LightKey& l) { l.variant.shadowArray = true; },
                                                     [](LightKey& l) { l.variant.layers = 1; },
                                                     [](LightKey& l) { l.variant.monochrome = true; },
+                                                    [](LightKey& l) { l.variant.eyeCurves = true; },
                                                     [](LightKey& l) { l.curves.texture = 3; },
                                                     [](LightKey& l) { l.block.lightColour.y = 1; }};
   for (std::size_t change = 0; change < changes.size(); ++change) {
@@ -188,6 +189,12 @@ TEST_CASE("a light with another map's size, program or smoke is another") {
   CHECK_FALSE(same(smoke, smoke)); // not known to be the same
   smoke.curves.version = 1;
   CHECK(same(smoke, smoke));
+  FrameKey eye, none;
+  eye.eyeCurves.texture = 3;
+  CHECK_FALSE(sameFrame(eye, none));
+  CHECK_FALSE(sameFrame(eye, eye));
+  eye.eyeCurves.version = 1;
+  CHECK(sameFrame(eye, eye));
 }
 
 TEST_CASE("frames that reuse nothing are not kept for 1, 2, 4, 8, then 16 frames") {
