@@ -18,6 +18,7 @@ const std::map<std::string, std::function<Scene()>>& generators() {
       {"smoke", makeSmoke},
       {"hair", makeHair},
       {"censer", makeCenser},
+      {"valley", makeValley},
   };
   return kGenerators;
 }

@@ -268,9 +268,15 @@ json extrasOf(const Scene& scene) {
   for (const Constituent& c : scene.constituents) {
     constituents.push_back({{"phase", c.phase}, {"scattering", listOf(c.scattering)}});
     if (c.g != 0) constituents.back()["g"] = c.g;
+    if (c.layer >= 0) constituents.back()["layer"] = c.layer;
   }
-  const json medium = {{"constituents", constituents}, {"absorption", listOf(scene.absorption)}};
-  return {{"tyndall", {{"medium", medium}, {"sky", listOf(scene.sky)}}}};
+  json medium = {{"constituents", constituents}, {"absorption", listOf(scene.absorption)}};
+  for (const Layer& layer : scene.layers)
+    medium["layers"].push_back({{"height", layer.height}, {"scale", layer.scale}, {"ground", layer.ground}});
+  if (scene.farDistance > 0) medium["farDistance"] = scene.farDistance;
+  json extras = {{"medium", medium}, {"sky", listOf(scene.sky)}};
+  if (scene.ambient != glm::dvec3(0)) extras["ambient"]["radiance"] = listOf(scene.ambient);
+  return {{"tyndall", extras}};
 }
 
 Document::Document(const Scene& scene) {

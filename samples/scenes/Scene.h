@@ -93,6 +93,12 @@ struct Constituent {
   std::string phase;        ///< as in extras.tyndall.medium
   glm::dvec3 scattering{0}; ///< 1/metre
   double g = 0;             ///< written for the phases that have one
+  int layer = -1;           ///< of the scene's; -1: none
+};
+
+/// Of the medium, as extras.tyndall.medium has it: thinner by 1/e each `scale`, from 1 at `height`; even below `ground`.
+struct Layer {
+  double height = 0, scale = 1, ground = 0; ///< metres
 };
 
 struct Scene {
@@ -106,6 +112,9 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Constituent> constituents;
   glm::dvec3 absorption{0}; ///< 1/metre
+  std::vector<Layer> layers;
+  double farDistance = 0;  ///< metres; 0: none
+  glm::dvec3 ambient{0};   ///< radiance of the surroundings, which the medium scatters
   glm::dvec3 sky{0};        ///< radiance of the sky and of ambient light
   /// Positions are rounded to this step, so that the last bits of sin and cos do not reach the file and points
   /// that are meant to coincide do.
@@ -136,6 +145,8 @@ Scene makeSmoke();
 Scene makeHair();
 /// The glazed nave with a smoking censer.
 Scene makeCenser();
+/// A low sun behind the ridges around a valley with its morning fog.
+Scene makeValley();
 /// The model of a glTF file, turning once in 12.5 s. Throws host::Error or std::runtime_error.
 Scene makeTurntable(const std::string& path);
 

@@ -1,112 +1,23 @@
 // Mountains after the TERRAIN scene of Chen et al. 2011: low sun behind ridges and kilometres of haze.
-#include "Erosion.h"
 #include "MeshBuilder.h"
+#include "Mountains.h"
 #include "Noise.h"
-#include "Random.h"
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace scenes {
 namespace {
 
-constexpr int kCoarse = 151; ///< points a side before the refinements: 151, 301, 601
-constexpr double kSide = 20000;
-constexpr double kUplift = 250; ///< metres a step where it is strongest
-
-struct Ground {
-  HeightField field;
-  glm::dvec3 point(int x, int y) const {
-    return {x * field.cell - 0.5 * kSide, field.at(x, y), y * field.cell - 0.5 * kSide};
-  }
-  glm::dvec3 normal(int x, int y) const {
-    const int left = std::max(x - 1, 0);
-    const int right = std::min(x + 1, field.size - 1);
-    const int near = std::max(y - 1, 0);
-    const int far = std::min(y + 1, field.size - 1);
-    const double dx = (field.at(right, y) - field.at(left, y)) / ((right - left) * field.cell);
-    const double dy = (field.at(x, far) - field.at(x, near)) / ((far - near) * field.cell);
-    return glm::normalize(glm::dvec3(-dx, 1, -dy));
-  }
-};
-
-/// Relative uplift: a ridged range, less towards the border.
-std::vector<double> upliftOf(const HeightField& field, double strength) {
-  std::vector<double> uplift;
-  const double last = field.size - 1;
-  for (int y = 0; y < field.size; ++y)
-    for (int x = 0; x < field.size; ++x) {
-      const glm::dvec2 p(x / last, y / last);
-      const glm::dvec2 bent = 4.0 * p + 0.45 * glm::dvec2(fractal(3.0 * p, 3, 11), fractal(3.0 * p, 3, 23));
-      const double edge = std::min({p.x, p.y, 1 - p.x, 1 - p.y});
-      const double rise = std::clamp(edge / 0.12, 0.0, 1.0);
-      uplift.push_back(strength * rise * (0.18 + 1.25 * ridged(bent, 4, 31)));
-    }
-  return uplift;
-}
-
-HeightField mountains() {
-  HeightField field;
-  field.size = kCoarse;
-  field.cell = kSide / (kCoarse - 1);
-  for (int y = 0; y < kCoarse; ++y)
-    for (int x = 0; x < kCoarse; ++x)
-      field.heights.push_back(12 * (1 + fractal({0.11 * x, 0.11 * y}, 4, 3)));
-  Rivers rivers;
-  rivers.creep = 0.04;
-  erode(field, upliftOf(field, kUplift), rivers, 90);
-  field = refined(field);
-  rivers.creep = 0.08;
-  erode(field, upliftOf(field, kUplift), rivers, 16);
-  field = refined(field);
-  rivers.creep = 0.15;
-  erode(field, upliftOf(field, kUplift), rivers, 5);
-  for (int y = 0; y < field.size; ++y)
-    for (int x = 0; x < field.size; ++x) {
-      const double rough = std::clamp(field.at(x, y) / 1500, 0.1, 1.0);
-      field.at(x, y) += 60 * rough * (ridged({0.055 * x, 0.055 * y}, 5, 71) - 0.4);
-    }
-  limitSlope(field, 1.3);
-  return field;
-}
-
-enum Cover { Grass, Forest, Scree, Rock, DarkRock, Snow, CoverCount };
+enum Cover { Grass, Forest, Scree, Rock, DarkRock, Snow };
 
 /// The cover of a triangle; `chance` in [0, 1) frays the borders.
-Cover coverAt(const glm::dvec3& p, const glm::dvec3& normal, double chance) {
+int coverAt(const glm::dvec3& p, const glm::dvec3& normal, double chance) {
   const double patches = fractal({p.x / 900, p.z / 900}, 4, 91) + 0.1 * (chance - 0.5);
   const double steep = 1 - normal.y;
   if (p.y > 1800 + 450 * patches && steep < 0.3 + 0.1 * patches) return Snow;
   if (steep > 0.22) return patches > 0 ? Rock : DarkRock;
   if (p.y > 1200 + 300 * patches) return steep > 0.1 ? Scree : Rock;
   return patches > 0.02 || p.y > 850 ? Grass : Forest;
-}
-
-void cover(MeshBuilder& mesh, const Ground& ground, const std::array<int, CoverCount>& materials) {
-  const int n = ground.field.size;
-  for (int kind = 0; kind < CoverCount; ++kind) {
-    mesh.material(materials[static_cast<std::size_t>(kind)]);
-    // The vertex of each grid point in this material, where it has one.
-    std::vector<std::int64_t> shared(ground.field.heights.size(), -1);
-    const auto vertex = [&](int x, int y) {
-      std::int64_t& index =
-          shared[static_cast<std::size_t>(y) * static_cast<std::size_t>(n) + static_cast<std::size_t>(x)];
-      if (index < 0) index = mesh.vertex(ground.point(x, y), ground.normal(x, y));
-      return static_cast<std::uint32_t>(index);
-    };
-    for (int y = 0; y + 1 < n; ++y)
-      for (int x = 0; x + 1 < n; ++x) {
-        const glm::dvec3 normal = ground.normal(x, y);
-        const glm::dvec3 middle = 0.5 * (ground.point(x, y) + ground.point(x + 1, y + 1));
-        const bool isLower = coverAt(middle, normal, hashOf(x, y, 0)) == kind;
-        const bool isUpper = coverAt(middle, normal, hashOf(x, y, 1)) == kind;
-        if (!isLower && !isUpper) continue;
-        const std::uint32_t here = vertex(x, y);
-        const std::uint32_t opposite = vertex(x + 1, y + 1);
-        if (isLower) mesh.triangle(here, vertex(x, y + 1), opposite);
-        if (isUpper) mesh.triangle(here, opposite, vertex(x + 1, y));
-      }
-  }
 }
 
 } // namespace
@@ -124,12 +35,12 @@ Scene makeTerrain() {
   scene.absorption = glm::dvec3(1e-6);
   scene.sky = {1.1, 1.35, 1.75};
 
-  const std::array<int, CoverCount> materials = {
+  const std::vector<int> materials = {
       scene.add({"meadow", {0.095, 0.1, 0.05}}),     scene.add({"forest", {0.035, 0.06, 0.025}}),
       scene.add({"scree", {0.24, 0.22, 0.19}}),      scene.add({"rock", {0.19, 0.165, 0.14}}),
       scene.add({"dark rock", {0.13, 0.115, 0.10}}), scene.add({"snow", {0.82, 0.84, 0.88}})};
   MeshBuilder mesh(scene);
-  cover(mesh, {mountains()}, materials);
+  cover(mesh, {mountains({})}, coverAt, materials);
   return scene;
 }
 
