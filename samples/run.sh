@@ -45,4 +45,5 @@ picture sweep --time 1
 picture smoke
 picture hair
 picture censer
+picture valley
 say "Done: look at out/gallery/.$viewer"

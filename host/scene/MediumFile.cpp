@@ -7,6 +7,7 @@
 #include <scene/Error.h>
 #include <scene/FileIo.h>
 #include <scene/Json.h>
+#include <tyndall/atmosphere.h>
 #include <utility>
 
 namespace host {
@@ -91,6 +92,16 @@ tyndall::HeightLayer parseHeightLayer(const json& value, const std::string& wher
   return layer;
 }
 
+tyndall::Vec3 parseUp(const json& value, const std::string& where) {
+  if (!value.is_array() || value.size() != 3) refuse(where, "must be 3 numbers");
+  tyndall::Vec3 up{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    up[i] = parseNumber(value[i], where + "[" + std::to_string(i) + "]");
+  }
+  if (up == tyndall::Vec3{0, 0, 0}) refuse(where, "must not be 0");
+  return up;
+}
+
 void parseLayers(const json& value, tyndall::Medium& medium, const std::string& where) {
   if (value.contains("layers")) {
     const json& list = value["layers"];
@@ -102,12 +113,7 @@ void parseLayers(const json& value, tyndall::Medium& medium, const std::string& 
     }
   }
   if (!value.contains("up")) return;
-  const json& up = value["up"];
-  if (!up.is_array() || up.size() != 3) refuse(where + ".up", "must be 3 numbers");
-  for (std::size_t i = 0; i < 3; ++i) {
-    medium.up[i] = parseNumber(up[i], where + ".up[" + std::to_string(i) + "]");
-  }
-  if (medium.up == tyndall::Vec3{0, 0, 0}) refuse(where + ".up", "must not be 0");
+  medium.up = parseUp(value["up"], where + ".up");
 }
 
 tyndall::Constituent parseConstituent(const json& value, std::size_t layers, const std::string& where) {
@@ -128,9 +134,26 @@ tyndall::Constituent parseConstituent(const json& value, std::size_t layers, con
   return constituent;
 }
 
+/// {"atmosphere": {...}}, in place of all else.
+tyndall::Medium parseAtmosphere(const json& value, const std::string& where) {
+  requireObject(value, where, {"metre", "seaLevel", "haze", "up"});
+  tyndall::Atmosphere atmosphere;
+  if (value.contains("metre")) atmosphere.metre = parseNumber(value["metre"], where + ".metre");
+  if (!(atmosphere.metre > 0)) refuse(where + ".metre", value["metre"].dump() + " must be greater than 0, world units");
+  if (value.contains("seaLevel")) atmosphere.seaLevel = parseNumber(value["seaLevel"], where + ".seaLevel");
+  if (value.contains("haze")) atmosphere.haze = parseNumber(value["haze"], where + ".haze");
+  if (!(atmosphere.haze >= 0)) refuse(where + ".haze", value["haze"].dump() + " must be 0 or greater");
+  if (value.contains("up")) atmosphere.up = parseUp(value["up"], where + ".up");
+  return tyndall::airOf(atmosphere);
+}
+
 } // namespace
 
 tyndall::Medium parseMedium(const json& value, const std::string& where) {
+  if (value.is_object() && value.contains("atmosphere")) {
+    requireObject(value, where, {"atmosphere"});
+    return parseAtmosphere(value["atmosphere"], where + ".atmosphere");
+  }
   requireObject(value, where,
                 {"constituents", "absorption", "absorptionLayer", "farDistance", "layers", "up", "dimsBackground"});
   tyndall::Medium medium;

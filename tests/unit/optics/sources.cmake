@@ -1,4 +1,5 @@
-set(TYNDALL_UNIT_OPTICS_SOURCES ${CMAKE_CURRENT_LIST_DIR}/EyeLightTest.cpp
+set(TYNDALL_UNIT_OPTICS_SOURCES ${CMAKE_CURRENT_LIST_DIR}/AtmosphereTest.cpp
+                               ${CMAKE_CURRENT_LIST_DIR}/EyeLightTest.cpp
                                ${CMAKE_CURRENT_LIST_DIR}/FrameBlockTest.cpp
                                  ${CMAKE_CURRENT_LIST_DIR}/LayersTest.cpp
                                ${CMAKE_CURRENT_LIST_DIR}/LightBlockTest.cpp

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <scene/Error.h>
 #include <scene/MediumFile.h>
+#include <tyndall/atmosphere.h>
 
 namespace tests {
 
@@ -71,6 +72,36 @@ TEST_CASE("Everything in a medium is optional but scattering", "[scene][medium]"
   CHECK(medium.farDistance == tyndall::kInfinity);
   CHECK_THAT(refusal(nlohmann::json{{"constituents", {{{"phase", "rayleigh"}}}}}),
              Catch::Contains("fog.constituents[0].scattering: is missing"));
+}
+
+TEST_CASE("A medium may be an atmosphere, and nothing else then", "[scene][medium]") {
+  const nlohmann::json json = {{"atmosphere", {{"metre", 0.5}, {"seaLevel", 3}, {"haze", 2}, {"up", {0, 0, 1}}}}};
+  const tyndall::Medium medium = host::parseMedium(json, "fog");
+  tyndall::Atmosphere atmosphere;
+  atmosphere.metre = 0.5;
+  atmosphere.seaLevel = 3;
+  atmosphere.haze = 2;
+  atmosphere.up = {0, 0, 1};
+  const tyndall::Medium air = tyndall::airOf(atmosphere);
+  REQUIRE(medium.constituents.size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(medium.constituents[i].scattering == air.constituents[i].scattering);
+    CHECK(medium.layers[i].scale == air.layers[i].scale);
+    CHECK(medium.layers[i].height == 3);
+  }
+  CHECK(medium.up == atmosphere.up);
+  CHECK(medium.absorption == air.absorption);
+  const auto refused = [](const char* field, const nlohmann::json& value) {
+    return refusal(nlohmann::json{{"atmosphere", {{field, value}}}});
+  };
+  using Catch::Contains;
+  CHECK_THAT(refused("metre", 0), Contains("fog.atmosphere.metre: 0 must be greater than 0"));
+  CHECK_THAT(refused("haze", -1), Contains("fog.atmosphere.haze: -1 must be 0 or greater"));
+  CHECK_THAT(refused("seaLevel", "high"), Contains("fog.atmosphere.seaLevel: \"high\" must be a finite number"));
+  CHECK_THAT(refused("up", {0, 0, 0}), Contains("fog.atmosphere.up: must not be 0"));
+  CHECK_THAT(refused("planet", "Mars"), Contains("fog.atmosphere: unknown key \"planet\""));
+  CHECK_THAT(refusal(nlohmann::json{{"atmosphere", nlohmann::json::object()}, {"absorption", {0, 0, 0}}}),
+             Contains("unknown key \"absorption\""));
 }
 
 TEST_CASE("A medium that breaks a rule is refused by field", "[scene][medium]") {
