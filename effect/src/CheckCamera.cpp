@@ -1,4 +1,4 @@
-// Rules of a camera, and of the planes that curves before it lie between.
+// Rules of a camera and its image, and of the planes that curves before it lie between.
 #include "CheckValues.h"
 
 #include <algorithm>
@@ -11,6 +11,16 @@ namespace {
 constexpr double kMostJitter = 16; // pixels, as the header says
 
 } // namespace
+
+Status checkViewport(const Rectangle& viewport) {
+  if (viewport.x < 0) return invalid("viewport.x", std::to_string(viewport.x), "must be >= 0");
+  if (viewport.y < 0) return invalid("viewport.y", std::to_string(viewport.y), "must be >= 0");
+  if (viewport.width < 1 || viewport.width > kMaxImageSize)
+    return invalid("viewport.width", std::to_string(viewport.width), "must be 1 to 16384");
+  if (viewport.height < 1 || viewport.height > kMaxImageSize)
+    return invalid("viewport.height", std::to_string(viewport.height), "must be 1 to 16384");
+  return {};
+}
 
 Status checkCamera(const Camera& camera) {
   if (Status s = checkMatrix("camera.viewFromWorld", camera.viewFromWorld); !s) return s;
@@ -27,18 +37,19 @@ Status checkCamera(const Camera& camera) {
 }
 
 Status checkEyePlanes(const Camera& camera, double nearDistance, double farDistance) {
-  constexpr double kMost = 1e30, kMostRatio = 1e6; // float32 holds them, and curves tell what lies between
-  const bool orthographic = optics::isOrthographic(optics::toGlm(camera.clipFromView));
-  constexpr double kLeast = 1e-30;
+  constexpr double kLeast = 1e-30, kMost = 1e30;             // float32 holds them,
+  constexpr double kLeastRatio = 1 + 1e-4, kMostRatio = 1e6; // and curves tell what lies between
+  const bool orthographic =
+      optics::isOrthographic(optics::toGlm(camera.clipFromView) * optics::toGlm(camera.viewFromWorld));
   if (!(nearDistance >= (orthographic ? 0 : kLeast) && nearDistance < kMost))
     return invalid("eyeCurves.nearDistance", text(nearDistance),
-                   orthographic ? "must be finite and >= 0" : "must be finite and > 0, as a 32-bit float");
-  constexpr double kLeastRatio = 1 + 1e-4;
-  const bool isBehind = farDistance > nearDistance && farDistance >= std::max(kLeastRatio * nearDistance, kLeast);
-  if (!(isBehind && farDistance < kMost && (orthographic || farDistance <= kMostRatio * nearDistance)))
+                   orthographic ? "must be >= 0 and < 1e30" : "must be >= 1e-30 and < 1e30");
+  const bool isBehind =
+      farDistance >= std::max(kLeastRatio * nearDistance, nearDistance + kLeast) && farDistance < kMost;
+  if (!isBehind || !(orthographic || farDistance <= kMostRatio * nearDistance))
     return invalid("eyeCurves.farDistance", text(farDistance),
-                   orthographic ? "must be finite and > nearDistance"
-                                : "must be finite, > nearDistance and at most 1e6 times that");
+                   std::string("must be at least 1.0001 times nearDistance") +
+                       (orthographic ? ", greater and < 1e30" : ", at most 1e6 times that and < 1e30"));
   return {};
 }
 

@@ -57,14 +57,7 @@ Status checkSceneDepth(const Frame& frame) {
   return checkDepthScale("depth.", encoding, depth.scale);
 }
 
-Status checkViewport(const Frame& frame) {
-  const Rectangle& viewport = frame.viewport;
-  if (viewport.x < 0) return invalid("viewport.x", std::to_string(viewport.x), "must be >= 0");
-  if (viewport.y < 0) return invalid("viewport.y", std::to_string(viewport.y), "must be >= 0");
-  if (viewport.width < 1 || viewport.width > kMaxImageSize)
-    return invalid("viewport.width", std::to_string(viewport.width), "must be 1 to 16384");
-  if (viewport.height < 1 || viewport.height > kMaxImageSize)
-    return invalid("viewport.height", std::to_string(viewport.height), "must be 1 to 16384");
+Status checkLayers(const Frame& frame) {
   for (const auto& [field, layer] :
        {std::pair{"colourLayer", frame.colourLayer}, std::pair{"output.layer", frame.output.layer}})
     if (layer < -1) return invalid(field, std::to_string(layer), "must be a layer, or -1 for a texture without");
@@ -234,7 +227,8 @@ Status checkReuse(const Frame& frame) {
 } // namespace
 
 Status checkValues(const Frame& frame) {
-  if (Status s = checkViewport(frame); !s) return s;
+  if (Status s = checkViewport(frame.viewport); !s) return s;
+  if (Status s = checkLayers(frame); !s) return s;
   if (frame.colour == 0 && frame.output.inscatter == 0 && frame.output.transmittance == 0)
     return invalid("colour", "0", "may only be left out if output names a texture to write");
   if (Status s = checkCamera(frame.camera); !s) return s;

@@ -42,6 +42,7 @@ inline Status checkNodes(const std::string& field, const AvsmCurves& curves) {
   return invalid(field, std::to_string(curves.nodes), "must be 4, 8, 12 or 16");
 }
 
+Status checkViewport(const Rectangle& viewport);
 Status checkCamera(const Camera& camera);
 
 /// The planes that curves before the eye lie between (Frame::eyeCurves, eyeLight()); the camera has passed its check.

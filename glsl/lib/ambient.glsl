@@ -3,6 +3,7 @@
 #if EYE_CURVES
 #include "lib/curveNodes.glsl"
 #include "lib/weighted.glsl"
+#include "lib/eyeTexels.glsl"
 #include "lib/eyeCurves.glsl"
 #endif
 

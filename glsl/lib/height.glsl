@@ -23,29 +23,38 @@ Spectrum extinctionOf(Layers density) { return SPECTRUM(extinction) + layersExti
 // Exponents along a ray: at s they are begin + s slope.
 struct Heights {
   Layers begin, slope;
+  Layers beginDensity;
 };
 
 Layers exponentsAt(vec3 x) { return LAYERS(dot(layerUp[0].xyz, x) + layerUp[0].w, dot(layerUp[1].xyz, x) + layerUp[1].w); }
 Layers exponentSlopes(vec3 direction) { return LAYERS(dot(layerUp[0].xyz, direction), dot(layerUp[1].xyz, direction)); }
 Layers groundExponents() { return LAYERS(layerExtinction[0].w, layerExtinction[1].w); }
 
-Heights heightsAlong(Ray ray) { return Heights(exponentsAt(ray.origin), exponentSlopes(ray.direction)); }
-
 Layers densities(Layers exponents) { return exp(-max(exponents, groundExponents())); }
+
+Heights heightsAlong(Ray ray) {
+  Layers begin = exponentsAt(ray.origin);
+  return Heights(begin, exponentSlopes(ray.direction), densities(begin));
+}
 
 // (1 - exp(-x)) / x for x >= 0, where exp(-x) is known.
 Layers relativeFall(Layers x, Layers passed) {
   return moreThan(x, Layers(0.1), (1.0 - passed) / max(x, 0.1), 1.0 + x * (-1.0 / 2.0 + x * (1.0 / 6.0 + x * (-1.0 / 24.0 + x * (1.0 / 120.0)))));
 }
 
-// The mean density on the way between two exponents: of what lies below the ground that of the ground; above, it falls from the lower end on.
-Layers meanDensities(Layers a, Layers b) {
-  Layers ground = groundExponents(), low = max(min(a, b), ground), above = max(max(a, b), ground) - low, width = abs(b - a);
+// The mean density on the way between two exponents, of the densities there: of what lies below the ground that of the ground; above, it falls
+// from the lower end on.
+Layers meanDensities(Layers a, Layers b, Layers densityA, Layers densityB) {
+  Layers ground = groundExponents(), above = abs(max(a, ground) - max(b, ground)), width = abs(b - a);
   Layers share = moreThan(width, above, above / max(width, 1e-37), Layers(1.0)); // of the way that lies above the ground
-  return exp(-low) * (1.0 - share + share * relativeFall(above, exp(-above)));
+  return max(densityA, densityB) * (1.0 - share + share * relativeFall(above, exp(-above)));
 }
+
+// On the way from the ray's origin to where the exponents and densities are these.
+Layers meanDensities(Heights heights, Layers there, Layers density) { return meanDensities(heights.begin, there, heights.beginDensity, density); }
 
 // Optical depth from the ray's origin to s.
 Spectrum depthTo(Heights heights, float s) {
-  return s * extinctionOf(meanDensities(heights.begin, heights.begin + s * heights.slope));
+  Layers there = heights.begin + s * heights.slope;
+  return s * extinctionOf(meanDensities(heights, there, densities(there)));
 }

@@ -1,7 +1,7 @@
 // How light is integrated through layers that thin out with height, where there is no closed form: piece by piece between the grounds, in
 // panels over which densities change by few e-folds and the way of the light by few optical depths. Included by airlight.glsl.
 
-const float kFolds = 1.5;   // of density, over a panel
+const float kFolds = 2.0;   // of density, over a panel
 const float kDepths = 2.0;  // optical depths of a panel
 const float kUnseen = 14.0; // e-folds from where a layer is brightest to where it is nothing
 const float kDark = 20.0;   // optical depths more than where it is brightest, after which nothing counts,

@@ -1,4 +1,10 @@
-// A directional light in a medium part of which thins out with height. Included by airlight.glsl.
+// A directional light in a medium part of which thins out with height. Included by airlight.glsl. NO_BOUNDARY: none dims the light before
+// the ray; else HEIGHT 3 looks for one.
+#if HEIGHT == 3 && !defined(NO_BOUNDARY)
+#define LOSES_LIGHT 1
+#else
+#define LOSES_LIGHT 0
+#endif
 
 struct Airlight {
   Phases phases; // constant along the ray; PHASE_APART: as parts of their sum
@@ -21,10 +27,12 @@ void litRange(Airlight light, inout float s0, inout float s1) {}
 // The light's way to the point s and on to the eye.
 Way wayOf(Airlight light, float s) {
   Layers here = light.heights.begin + s * light.heights.slope;
-  Spectrum eye = s * extinctionOf(meanDensities(light.heights.begin, here)), whole = eye;
-#if HEIGHT == 3
+  Layers density = densities(here);
+  Spectrum eye = s * extinctionOf(meanDensities(light.heights, here, density)), whole = eye;
+#if LOSES_LIGHT
   float path = light.path + s * light.pathSlope;
-  if (path > 0.0) whole += path * extinctionOf(meanDensities(here, here - path * exponentSlopes(lightDirection)));
+  Layers before = here - path * exponentSlopes(lightDirection);
+  if (path > 0.0) whole += path * extinctionOf(meanDensities(here, before, density, densities(before)));
 #endif
   return Way(min(eye, Spectrum(kEndless)), min(whole, Spectrum(kEndless)));
 }
@@ -33,7 +41,7 @@ Way wayOf(Airlight light, float s) {
 float rateAt(Airlight light, float s) {
   Layers here = light.heights.begin + s * light.heights.slope, density = densities(here), slope = abs(light.heights.slope);
   float rate = greatestOf(extinctionOf(density)) + sumOf(slope * aboveGround(here));
-#if HEIGHT == 3
+#if LOSES_LIGHT
   // The light's way ends elsewhere on the boundary: pathSlope more of the density there; and all of it is at another height.
   float path = max(light.path + s * light.pathSlope, 0.0);
   Layers fall = exponentSlopes(lightDirection), there = densities(here - path * fall);
@@ -59,9 +67,9 @@ float evenLength(Airlight light, float most, float s0, float s1) { return most /
 
 // What extinction takes is in proportion to what is scattered: the integral of density times transmittance is (T(s0) - T(s1)) / sigma.
 void addAirlight(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
-  Layers begin = light.heights.begin, e0 = begin + s0 * light.heights.slope, e1 = begin + s1 * light.heights.slope;
+  Layers begin = light.heights.begin, e0 = begin + s0 * light.heights.slope, e1 = begin + s1 * light.heights.slope, d0 = densities(e0);
   // No more than floats hold: what is as dense as that is dark.
-  float before = min(s0 * meanDensities(begin, e0), 1e30), own = min(max(s1 - s0, 0.0) * meanDensities(e0, e1), 1e30);
+  float before = min(s0 * meanDensities(light.heights, e0, d0), 1e30), own = min(max(s1 - s0, 0.0) * meanDensities(e0, e1, d0, densities(e1)), 1e30);
   Spectrum sigma = layersExtinction(1.0);
   sum += visibility * Light(light.phases.first * exp(-sigma * before) * relativeExpm1(sigma * own) * own);
 }
@@ -127,7 +135,7 @@ Spectrum addShort(Airlight light, float s0, float s1, Visibility visibility, ino
   float len = s1 - s0, s = 0.5 * (s0 + s1);
   Layers here = light.heights.begin + s * light.heights.slope, slope = light.heights.slope * aboveGround(here), density = densities(here);
   Spectrum rate = extinctionOf(density), growth = layersExtinction(density * slope); // of the way to the eye, and what that rate falls by
-  Spectrum depth = s * extinctionOf(meanDensities(light.heights.begin, here)), value = phaseOf(light.phases, density);
+  Spectrum depth = s * extinctionOf(meanDensities(light.heights, here, density)), value = phaseOf(light.phases, density);
   Spectrum folds = layersPhase(light.phases, density * slope), folds2 = layersPhase(light.phases, density * slope * slope);
   Spectrum curve = value * (rate * rate + growth) + 2.0 * rate * folds + folds2, passed = exp(-depth) * len;
   sum += visibility * Light(passed * (value + len * len / 24.0 * curve));

@@ -13,6 +13,7 @@
 #include "lib/weighted.glsl"
 #endif
 #if EYE_CURVES
+#include "lib/eyeTexels.glsl"
 #include "lib/eyeCurves.glsl"
 #elif SHADOW_VIEWS > 0
 void addSeen(Airlight light, float s0, float s1, Visibility mean, Visibility moment, inout Light sum) { addWeighted(light, s0, s1, mean, moment, sum); }

@@ -3,6 +3,7 @@
 // Writes inscatter and transmittance: as the two sources of dual-source blending (COMPOSITE 1) or into two targets.
 // What a phase function leaves of spherical harmonics is spherical harmonics, each times a number (optics/Ambient.cpp): along a ray it is
 // constant, as what is scattered of a directional light, LIGHT_KIND 0, that no boundary dims.
+#define NO_BOUNDARY
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"

@@ -1,4 +1,5 @@
 // Look-up ambient: light of the surroundings between two layers of a look-up, as ambient.frag has it. Reads occlusion. Writes lookupSteps.
+#define NO_BOUNDARY
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"

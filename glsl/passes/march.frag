@@ -1,7 +1,7 @@
 // March: inscatter of one light, through the shadow views of a draw, along a slice's row and its tree: at the regular march samples, the
 // first of each segment; or, isImage, of every pixel or every pixel that unwarp left, by its nearest slice (Chen 2011). SHARES 1: only
 // of those pixels, and not where the samples around tell enough (lib/shares.glsl); then epipolarInscatter and meanLight are read, too.
-// Reads slice table, row textures and sampleEnds or the scene depth. Writes marched: slices x segments, light as
+// Reads slice table, row textures and, as sceneDepth, the sampleEnds or the scene depth. Writes marched: slices x segments, light as
 // lib/stored.glsl says, R32F (grey) or RGBA16F, added up over the draws, in parts only changedSegments; or as exact.frag does.
 #ifdef GL_ARB_shader_image_load_store
 #extension GL_ARB_shader_image_load_store : enable
@@ -26,7 +26,6 @@ layout(early_fragment_tests) in; // its discard is no reason to shade pixels tha
 #include "lib/unwarp.glsl"
 #endif
 
-uniform sampler2D sampleEnds;
 uniform sampler2D changedSegments;
 flat in int isImage;
 flat in int isPart;
@@ -43,7 +42,7 @@ struct Target {
 Target sampleTarget() {
   int slice = int(gl_FragCoord.x), samples = sliceSamples(slice), index = 16 * int(gl_FragCoord.y);
   bool changed = isPart == 0 || (index < samples && texelFetch(changedSegments, ivec2(slice, index / 16), 0).r > 0.0);
-  float end = index < samples ? texelFetch(sampleEnds, ivec2(slice, index), 0).r : 0.0;
+  float end = index < samples ? texelFetch(sceneDepth, ivec2(slice, index), 0).r : 0.0;
   return Target(samplePosition(sliceEnds(slice), samples, float(index)), slice, end, changed);
 }
 

@@ -2,7 +2,8 @@
 // Reads sampleEnds. Writes marks: slices x samples / 64, RGBA16, four masks of 16 samples (lib/bits.glsl): the first
 // of each segment, both sides of every break, creases, the slice's last sample, and every second or fourth near an epipole. With a
 // sliceTarget a directional light's breaks and creases are left out over which all light there could be differs by little of the picture's mean;
-// then meanLight is read, too.
+// then meanLight is read, too. EYE_CURVES: and every second or fourth where what stands before the eye is not what a line over the segment
+// would have it.
 #include "shared.glsl"
 #include "lib/bits.glsl"
 #include "lib/slices.glsl"
@@ -48,6 +49,23 @@ float openTo(Open open, float end) {
   return 0.0;
 }
 
+#if EYE_CURVES
+#include "lib/curveNodes.glsl"
+#include "lib/eyeTexels.glsl"
+
+// Which samples of a segment show what stands before the eye where a line from its begin to its end does not tell, by a few of bendThreshold.
+int seenInSegment(int slice, int from, int samples) {
+  vec4 ends = sliceEnds(slice);
+  float begin = eyePassedBehind(eyePlace(samplePosition(ends, samples, float(from)))), most = 0.0;
+  float end = eyePassedBehind(eyePlace(samplePosition(ends, samples, float(min(from + 16, samples - 1)))));
+  for (int k = 2; k < 16; k += 2) {
+    float passed = eyePassedBehind(eyePlace(samplePosition(ends, samples, float(min(from + k, samples - 1)))));
+    most = max(most, abs(passed - mix(begin, end, float(k) / 16.0)));
+  }
+  return most > 32.0 * bendThreshold ? 0xFFFF : most > 16.0 * bendThreshold ? 0x5555 : most > 4.0 * bendThreshold ? 0x1111 : 0;
+}
+#endif
+
 void main() {
   int slice = int(gl_FragCoord.x), first = 64 * int(gl_FragCoord.y), samples = sliceSamples(slice);
   float before = first >= 2 ? texelFetch(sampleEnds, ivec2(slice, first - 2), 0).r : -1.0;
@@ -79,6 +97,9 @@ void main() {
   for (int s = 0; s < 4; ++s) {
     int from = first + 16 * s;
     if (from < samples) masks[s] |= 1;
+#if EYE_CURVES
+    if (from < samples) masks[s] |= seenInSegment(slice, from, samples);
+#endif
     if (dense && s < 2) masks[s] |= s == 0 ? 0x5555 : 0x1111;
     int valid = clamp(samples - from, 0, 16);
     masks[s] &= (1 << valid) - 1;

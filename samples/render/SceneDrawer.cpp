@@ -338,7 +338,7 @@ void SceneDrawer::seeThroughSmoke(const settings::State& state, const Moment& mo
     near = std::min(near, reach[0]);
     far = std::max(far, reach[1]);
   }
-  constexpr double kNearest = 1e-4; // of the farthest
+  constexpr double kNearest = 1e-4, kThinnest = 1e-3; // of the farthest
   if (!volumeShadows_ || !state.eyeCurves || !(far > 0)) {
     if (volumeShadows_) volumeShadows_->forgetEye();
     eyeKey_.clear();
@@ -349,7 +349,8 @@ void SceneDrawer::seeThroughSmoke(const settings::State& state, const Moment& mo
   append(key, frame.camera.clipFromView);
   if (key != eyeKey_) {
     eyeKey_.clear();
-    eyeCurves_ = volumeShadows_->before(*renderer_, frame.camera, std::max(near, kNearest * far), far);
+    near = std::clamp(near, kNearest * far, (1 - kThinnest) * far);
+    eyeCurves_ = volumeShadows_->before(*renderer_, frame, near, far);
     eyeKey_ = std::move(key);
   }
   frame.eyeCurves = eyeCurves_;
@@ -378,8 +379,8 @@ void SceneDrawer::draw(const settings::State& state, const Moment& moment, host:
   fitViews(state, moment, worldFromNode, frame, notes);
   host::Pause::take();
   drawMaps(state, moment, worldFromNode, frame);
-  jitterCamera(state, moment.jitterPlace, frame.camera);
   seeThroughSmoke(state, moment, frame);
+  jitterCamera(state, moment.jitterPlace, frame.camera);
   const bool isFirst = pose_.empty();
   if (isFirst) addOnce(notes, host::adviceOn(scene_, worldFromNode, frame.camera));
   drawSurfaces(worldFromNode, sky, surfaces, frame);

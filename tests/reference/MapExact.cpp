@@ -81,12 +81,13 @@ private:
     const EyeDimming dimming(scene_.eyeCurves, (x + 0.5) / scene_.width, (y + 0.5) / scene_.height, advance);
     double from = 0;
     const auto addUpTo = [&](double to) {
-      constexpr double kSteps = 128; // while all is dimmed away
+      constexpr double kSteps = 512; // while all is dimmed away
       const double change = std::abs(dimming.at(to) - dimming.at(from));
-      const int steps = 1 + static_cast<int>(std::ceil(kSteps * change));
-      const double step = (to - from) / steps;
+      const int steps =
+          std::isinf(to) ? 1 : 1 + static_cast<int>(std::ceil(kSteps * change)); // no change on to the sky
       for (int k = 0; k < steps && to > from; ++k) {
-        const double begin = from + k * step, behind = k + 1 == steps ? to : begin + step;
+        const double begin = k == 0 ? from : glm::mix(from, to, double(k) / steps),
+                     behind = k + 1 == steps ? to : glm::mix(from, to, double(k + 1) / steps);
         const double passed = dimming.at(std::isinf(behind) ? 1e30 : 0.5 * (begin + behind));
         answer.inscatter += passed * lightOf(lights, ray, begin, behind, end);
       }
@@ -129,6 +130,7 @@ private:
     if (scene_.curves.empty() || scene_.curves[i].size == 0)
       return shadowedInscatter(lights_[i], airlight, ray, from, to);
     constexpr double kSteps = 2000; // of the whole ray
+    if (!(to > from)) return Rgb(0);
     const int steps = 1 + static_cast<int>(std::ceil(kSteps * (to - from) / end));
     Rgb sum(0);
     for (int k = 0; k < steps; ++k) {

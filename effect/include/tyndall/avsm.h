@@ -133,13 +133,13 @@ struct AvsmResult {
 /// that is singular or has its far plane at infinity, and a light without a finite direction or position.
 Status avsmDepth(const Light& light, int view, std::array<double, 4>& depth);
 
-/// A light that stands at the eye and shines through the image, of an orthographic camera with it: its only shadow view
-/// is what the camera sees between two planes, by the camera's clip depth convention. For what an engine captures for
-/// Frame::eyeCurves: its matrix draws, avsmDepth() and drawParticles() take it; it is none of Frame::lights. Distances
-/// are world units along the view's axis, from the eye or from an orthographic camera's near plane; 0 <= near < far,
-/// both finite, of a perspective camera 0 < near, and far at most 1e6 times that. InvalidFrame, with the field's name,
-/// for others and for a camera that breaks a rule of Camera.
-Status eyeLight(const Camera& camera, double nearDistance, double farDistance, Light& light);
+/// A light that stands at the eye and shines through the image, without the camera's jitter, of an orthographic camera
+/// with it: its only shadow view is what the camera sees between two planes, all of the viewport, whatever the map's
+/// shape, by the camera's clip depth convention. For what an engine captures for Frame::eyeCurves: its matrix draws,
+/// avsmDepth() and drawParticles() take it; it is none of Frame::lights. Distances are along the view's axis, from the
+/// eye or from an orthographic camera's near plane, as EyeCurves has their rules. InvalidFrame, and the light as it
+/// was, for others and for a viewport or a camera that breaks its rules.
+Status eyeLight(const Camera& camera, const Rectangle& viewport, double nearDistance, double farDistance, Light& light);
 
 /// The text of avsmCapture, avsmInsert and avsmLookup, for engines that build shaders from strings. Installed as files,
 /// too, in share/tyndall/glsl.

@@ -3,9 +3,9 @@
 // This header is the whole public interface. An engine creates one Effect per GL context, describes a frame and calls
 // render() once; the effect adds single-scattered light with volumetric shadows to the engine's colour texture.
 //
-//     out(v) = back(v) T(d) + sum over lights of  integral_0^d T(s) [sum_k sigma_k p_k] E V G ds
-//                           + integral_0^d T(s) [sum_k sigma_k  integral p_k L_ambient] ds  (Ambient),
-//     T(s) = exp(-integral_0^s sigma_t)
+//     out(v) = back(v) T(d) + sum over lights of  integral_0^d T(s) C(s) [sum_k sigma_k p_k] E V G A ds
+//                           + integral_0^d T(s) C(s) [sum_k sigma_k  integral p_k L_ambient] ds  (Ambient),
+//     T(s) = exp(-integral_0^s sigma_t), A and C what smoke leaves of light on its way there and to the eye.
 //
 // Conventions. World units are the engine's own: nothing depends on their scale. Matrices are column-major, column
 // vectors, destinationFromSource. Colours are linear RGB. Angles are radians. Texture row 0 is the bottom row, y = -1
@@ -438,14 +438,15 @@ struct MovingObject {
   MeshVertices mesh = {};
 };
 
-/// What smoke and hair before the eye leave of the light behind them: curves as Light::curves, but captured from the
-/// eye through eyeLight() (tyndall/avsm.h), jittered as the picture is. They dim the medium's light, of all lights and
-/// of the surroundings, by what stands before it, and nothing else: the engine draws smoke and hair over its picture by
-/// itself, before the effect. Low rank is Tree then, and a change of the curves draws all anew.
+/// What smoke and hair before the eye leave of the light behind them: curves as Light::curves, but captured from
+/// Frame::camera through eyeLight() (tyndall/avsm.h). They dim the medium's light, of all lights and of the
+/// surroundings, by what stands before it, and nothing else: the engine draws smoke and hair over its picture by
+/// itself, before the effect. Low rank is Tree then, and a change of the curves draws all anew. Lights' programs are
+/// others than without: prepare() compiles those of the frame that it is given.
 struct EyeCurves {
   AvsmCurves curves;       ///< of layer 0; texture 0: nothing stands before the eye
-  double nearDistance = 0; ///< where their depth is 0, as eyeLight() was given it,
-  double farDistance = 0;  ///< and 1
+  double nearDistance = 0; ///< where their depth is 0, as eyeLight() was given it: world units, > 0, orthographic >= 0
+  double farDistance = 0;  ///< and 1: at least 1.0001 and, of a perspective camera, at most 1e6 times that; < 1e30
 };
 
 /// Textures of the engine's own to write instead of, or besides, blending into Frame::colour. GL_TEXTURE_2D, a float

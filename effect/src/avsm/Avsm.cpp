@@ -14,6 +14,7 @@
 #include "gl/ShaderSources.h"
 #include "gl/StateGuard.h"
 #include "optics/EyeLight.h"
+#include "optics/Jitter.h"
 #include "optics/Matrices.h"
 
 #include <algorithm>
@@ -415,10 +416,12 @@ Status avsmDepth(const Light& light, int view, std::array<double, 4>& depth) {
   return {};
 }
 
-Status eyeLight(const Camera& camera, double nearDistance, double farDistance, Light& light) {
+Status eyeLight(const Camera& camera, const Rectangle& viewport, double nearDistance, double farDistance,
+                Light& light) {
+  if (Status s = checkViewport(viewport); !s) return s;
   if (Status s = checkCamera(camera); !s) return s;
   if (Status s = checkEyePlanes(camera, nearDistance, farDistance); !s) return s;
-  light = optics::eyeLight(camera, nearDistance, farDistance);
+  light = optics::eyeLight(optics::steady(camera, viewport), nearDistance, farDistance);
   return {};
 }
 

@@ -122,19 +122,13 @@ void setLookup(blocks::FrameBlock& block, const Lookup& lookup, const glm::ivec3
 
 int texelsOf(const AvsmCurves& curves) { return curves.nodes / (curves.packed ? 4 : 2); }
 
-glm::vec4 curveDepthOf(const Light& light, int view, const glm::dvec3& origin) {
-  const glm::dvec4 depth = linearDepth(light, view).coefficients;
-  return {glm::dvec3(depth), glm::dot(depth, glm::dvec4(origin, 1))};
-}
-
 void setEyeCurves(blocks::FrameBlock& block, const Frame& frame, int size) {
   const EyeCurves& eye = frame.eyeCurves;
   if (size == 0) return;
   block.eyeCurvesSize = size;
   block.eyeCurvesPacked = eye.curves.packed ? 1 : 0;
   block.texelsPerEyeCurve = texelsOf(eye.curves);
-  const Light light = eyeLight(frame.camera, eye.nearDistance, eye.farDistance);
-  block.eyeCurveDepth = curveDepthOf(light, 0, cameraOrigin(frame.camera));
+  block.eyeCurveDepth = eyeDepth(frame.camera, eye.nearDistance, eye.farDistance);
 }
 
 } // namespace
@@ -338,7 +332,8 @@ blocks::LightBlock lightBlock(const Frame& frame, const Light& light, int shadow
     map.size = {texels.width, texels.height};
     map.layer = view.layer;
     if (curvesSize == 0) continue;
-    map.curveDepth = curveDepthOf(light, i, origin);
+    const glm::dvec4 depth = linearDepth(light, i).coefficients;
+    map.curveDepth = glm::vec4(glm::dvec3(depth), glm::dot(depth, glm::dvec4(origin, 1)));
   }
   if (curvesSize == 0) return block;
   block.curvesSize = curvesSize;

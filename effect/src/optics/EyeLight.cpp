@@ -11,36 +11,54 @@ Mat4 toMat4(const glm::dmat4& m) { return mat4(&m[0][0]); }
 
 Vec3 toVec3(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
+/// Rows of clipFromWorld, and along which axis distances are: that of clip w, of length `unit`, or the view's.
+struct Seen {
+  glm::dmat4 rows;
+  bool orthographic;
+  double unit;
+  glm::dvec3 forward;
+
+  explicit Seen(const Camera& camera) {
+    const glm::dmat4 viewFromWorld = toGlm(camera.viewFromWorld),
+                     clipFromWorld = toGlm(camera.clipFromView) * viewFromWorld;
+    rows = glm::transpose(clipFromWorld);
+    orthographic = isOrthographic(clipFromWorld);
+    const glm::dvec3 along = orthographic ? -glm::dvec3(glm::transpose(viewFromWorld)[2]) : glm::dvec3(rows[3]);
+    unit = glm::length(along);
+    forward = along / unit;
+  }
+};
+
 } // namespace
 
 // Of the camera's matrix the row of z is another: linear along the axis of an orthographic view and, of a perspective
 // one, a + b / w, w times the same factor as the camera's.
 Light eyeLight(const Camera& camera, double nearDistance, double farDistance) {
-  const glm::dmat4 viewFromWorld = toGlm(camera.viewFromWorld);
-  const glm::dmat4 clipFromWorld = toGlm(camera.clipFromView) * viewFromWorld;
+  Seen seen(camera);
   const glm::dvec3 origin = cameraOrigin(camera);
-  const bool orthographic = isOrthographic(clipFromWorld);
-  glm::dmat4 rows = glm::transpose(clipFromWorld);
   const double low = camera.clipDepth == ClipDepth::ZeroToOne ? 0 : -1, depth = farDistance - nearDistance;
+  glm::dvec4 &z = seen.rows[2], &w = seen.rows[3];
   Light light;
   light.shadow.clipDepth = camera.clipDepth;
   light.litOutsideViews = false;
-  if (orthographic) {
-    const glm::dvec3 forward = -glm::normalize(glm::dvec3(glm::transpose(viewFromWorld)[2]));
-    light.direction = toVec3(forward);
-    const double slope = (1 - low) / depth * rows[3].w;
-    rows[2] = glm::dvec4(slope * forward, low * rows[3].w - slope * (nearDistance + glm::dot(forward, origin)));
+  light.direction = toVec3(seen.forward);
+  if (seen.orthographic) {
+    const double slope = (1 - low) / depth * w.w;
+    z = glm::dvec4(slope * seen.forward, low * w.w - slope * (nearDistance + glm::dot(seen.forward, origin)));
   } else {
     light.kind = LightKind::Spot;
     light.position = toVec3(origin);
-    const double unit = glm::length(glm::dvec3(rows[3])); // of w
-    light.direction = toVec3(glm::dvec3(rows[3]) / unit);
-    const double b = (low - 1) * unit * nearDistance * farDistance / depth, a = 1 - b / (unit * farDistance);
-    rows[2] = a * rows[3];
-    rows[2].w += b;
+    const double b = (low - 1) * seen.unit * nearDistance * farDistance / depth, a = 1 - b / (seen.unit * farDistance);
+    z = a * w;
+    z.w += b;
   }
-  light.shadow.views = {{toMat4(glm::transpose(rows))}};
+  light.shadow.views = {{toMat4(glm::transpose(seen.rows))}};
   return light;
+}
+
+glm::dvec4 eyeDepth(const Camera& camera, double nearDistance, double farDistance) {
+  const double depth = farDistance - nearDistance;
+  return {Seen(camera).forward / depth, -nearDistance / depth};
 }
 
 } // namespace tyndall::optics

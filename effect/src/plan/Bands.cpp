@@ -23,13 +23,14 @@ constexpr double kLayers[] = {1, 1.2, 2, 4}; // of a medium that thins out with 
 // (DebugView::NodeVisits).
 constexpr double kTreeSteps = 512;
 
-// Panels of a ray through layers (glsl/lib/heightSteps.glsl), more than most take, in steps.
+// Panels of a ray through layers (glsl/lib/heightSteps.glsl) or pieces of one before the eye (glsl/lib/eyeCurves.glsl),
+// more than most take, in steps.
 constexpr double kOpenSteps = 32;
 
 // Rasterisers shade squares of pixels together: bands are as high and wide as some of these, if they may be.
 constexpr int kBlock = 4;
 
-double stepsOf(const PassRow& row, const RayPaths& paths, int layers, double samples) {
+double stepsOf(const PassRow& row, const RayPaths& paths, const LightVariant& light, double samples) {
   const double across = static_cast<double>(paths.map.width) + paths.map.height; // cells that a line may cross
   const double texels = paths.rowTexels, nodes = texels * 4 / 3;
   switch (row.walk) {
@@ -40,7 +41,7 @@ double stepsOf(const PassRow& row, const RayPaths& paths, int layers, double sam
   case RayWalk::Row:
     return paths.drawnViews * (paths.tree ? std::min(nodes, kTreeSteps) : texels);
   case RayWalk::Open: // of each sample
-    return samples * (layers == kNoLayers || layers == kOnlyLayer ? 1 : kOpenSteps);
+    return samples * ((light.layers == kNoLayers || light.layers == kOnlyLayer) && !light.eyeCurves ? 1 : kOpenSteps);
   default:
     return 0;
   }
@@ -70,7 +71,7 @@ int evenPart(int length, double most) {
 double nanosecondsPerFragment(const PassRow& row, const LightVariant& light, const RayPaths& paths) {
   const double samples = readsSamples(row) ? paths.depthSamples : 1;
   return kFragment + kSample * samples * (samples - 1) + // each is compared with the others
-         row.raysPerFragment * stepsOf(row, paths, light.layers, samples) * stepNanoseconds(light);
+         row.raysPerFragment * stepsOf(row, paths, light, samples) * stepNanoseconds(light);
 }
 
 Bands bandsOf(const Size& target, double nanoseconds, double milliseconds) {

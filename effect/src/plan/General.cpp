@@ -57,9 +57,10 @@ bool seesLayers(std::string_view fragment, const Values& values) {
          values["LOW_RANK"] == 0 && values["SHARES"] == 0;
 }
 
-// Where what smoke and hair leave of light on its way to the eye is looked at: where light is integrated.
+// Where what smoke and hair leave of light on its way to the eye is looked at: where light is integrated, and where it
+// is decided for which samples.
 bool seesEyeCurves(std::string_view fragment, const Values& values) {
-  return isOneOf(fragment, {"ambient", "exact", "lookupAmbient", "lookupLight", "march", "marchExtra"}) &&
+  return isOneOf(fragment, {"ambient", "exact", "lookupAmbient", "lookupLight", "march", "marchExtra", "marks"}) &&
          values["SHARES"] == 0;
 }
 

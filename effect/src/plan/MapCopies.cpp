@@ -1,6 +1,7 @@
 #include "plan/MapCopies.h"
 
 #include "optics/Blocks.h"
+#include "optics/EyeLight.h"
 #include "optics/HeightFog.h"
 #include "optics/MapCopy.h"
 
@@ -11,16 +12,16 @@ namespace tyndall {
 
 namespace {
 
-// Several views of one texture are read as they are by all passes but the seldom ones (plan/General.cpp); behind what
-// dims light before the eye no texture is that has no layers.
+// Several views of one texture are read as they are by all passes but the seldom ones (plan/General.cpp). Where
+// something before the eye dims the light no pass reads a texture without layers: rows are made of it first.
 bool isSeldomAtlas(const Frame& frame, const Light& light) {
   const Settings& settings = frame.settings;
   if (light.shadow.array) return false;
   const bool filters = settings.shadowFilter == ShadowFilter::Bilinear, glass = light.glass.colour != 0;
   const bool spreads = settings.technique == Technique::Epipolar && std::isfinite(settings.spreadThreshold);
-  const bool several = light.shadow.views.size() > 1, dims = frame.eyeCurves.curves.texture != 0;
+  const bool several = light.shadow.views.size() > 1;
   const bool isExact = settings.technique == Technique::Exact || settings.debugView == DebugView::Difference;
-  if (dims) return several || filters || glass || spreads || isExact;
+  if (optics::isDimmedBeforeEye(frame)) return several || filters || glass || spreads || isExact;
   const int kinds = (filters ? 1 : 0) + (glass ? 1 : 0) + (light.curves.texture != 0 ? 1 : 0);
   const bool looksUp = settings.technique == Technique::LowRank || settings.debugView == DebugView::NodeVisits;
   return several && (kinds > 1 || spreads || optics::isLayered(frame.medium) || (looksUp && (filters || glass)));

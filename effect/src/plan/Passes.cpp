@@ -231,7 +231,7 @@ std::vector<PassRow> makeRows() {
           .sameForAllLights(),
       Row(Pass::PixelTree, "pixels", "passes/march.frag", S::ImageOfMarch)
           .reads({R::SceneDepth, R::SliceTable})
-          .readsIfThere({R::SampleEnds, R::SliceBlocks}) // of the march, whose program it shares
+          .readsIfThere({R::SliceBlocks})
           .walksRows()
           .into(Into::Destination)
           .joins(kSumOfLights),
@@ -250,12 +250,12 @@ std::vector<PassRow> makeRows() {
           .options({{"LOW_RANK", {1}}, kTintSums})
           .when(hasLowRank),
       Row(Pass::Marks, "marks", "passes/marks.frag", S::Slices)
-          .reads({R::SliceTable, R::SampleEnds})
+          .reads({R::SliceTable, R::SampleEnds, R::EyeCurves})
           .readsIfThere({R::MeanLight})
           .writes({R::Marks}),
       Row(Pass::March, "march", "passes/march.frag", S::Segments)
-          .reads({R::SceneDepth, R::SliceTable, R::SampleEnds})
-          .readsIfThere({R::SliceBlocks}) // of pixels, whose program it shares
+          .reads({{R::SampleEnds, "sceneDepth"}, R::SliceTable}) // its program is that of pixels, too
+          .readsIfThere({R::SliceBlocks})
           .walksRows()
           .writes({R::Marched})
           .joins(kSumOfDraws),
@@ -365,13 +365,13 @@ std::vector<PassRow> makeRows() {
           .writes({R::UnservedTiles})
           .sameForAllLights(),
       Row(Pass::FixupAlongRow, "fix-up", "passes/march.frag", S::ImageOfMarch)
-          .reads({R::SceneDepth, R::SliceTable, R::SampleEnds})
+          .reads({R::SceneDepth, R::SliceTable})
           .readsIfThere({R::SliceBlocks})
           .walksRows()
           .into(Into::Destination)
           .joins(kSumOfLights),
       Row(Pass::FixupByShares, "fix-up", "passes/march.frag", S::ImageOfMarch)
-          .reads({R::SceneDepth, R::SliceTable, R::SampleEnds, R::SliceBlocks, R::EpipolarInscatter, R::MeanLight})
+          .reads({R::SceneDepth, R::SliceTable, R::SliceBlocks, R::EpipolarInscatter, R::MeanLight})
           .walksRows()
           .into(Into::Destination)
           .joins(kSumOfLights)

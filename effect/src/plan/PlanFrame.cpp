@@ -5,6 +5,7 @@
 #include "optics/Ambient.h"
 #include "optics/Blocks.h"
 #include "optics/EngineDepth.h"
+#include "optics/EyeLight.h"
 #include "optics/HeightFog.h"
 #include "optics/Jitter.h"
 #include "optics/LightVolume.h"
@@ -76,7 +77,7 @@ LightVariant variantOf(const Frame& frame, const Light& light, bool dualSource, 
   LightVariant variant;
   variant.dualSource = dualSource;
   variant.layers = layersFor(frame.medium, light);
-  variant.eyeCurves = frame.eyeCurves.curves.texture != 0;
+  variant.eyeCurves = optics::isDimmedBeforeEye(frame);
   variant.monochrome = optics::isMonochrome(frame.medium);
   variant.composite = direct;
   variant.lightKind = static_cast<int>(light.kind);
@@ -109,7 +110,7 @@ FramePlanner::FramePlanner(const PlanInputs& inputs, Allocator& allocator, Plann
                             inputs.textures.transmittance.format};
   passes_.variant.dualSource = inputs.tuning.compositing == Compositing::DualSource;
   passes_.variant.layers = optics::isLayered(frame_.medium) ? kAnyLayers : kNoLayers;
-  passes_.variant.eyeCurves = frame_.eyeCurves.curves.texture != 0;
+  passes_.variant.eyeCurves = optics::isDimmedBeforeEye(frame_);
   passes_.board[Resource::EyeCurves] = frame_.eyeCurves.curves.texture;
   const FrameTextures::Lookup& lookup = inputs.textures.lookup;
   passes_.extent.lookup = {lookup.width, lookup.height};
@@ -172,12 +173,12 @@ Destination FramePlanner::chooseDestination(bool changes) {
   to.colour = colour_.texture;
   to.engines = engines();
   to.ceiling = partOf(most, parts);
-  const bool spreads = frame_.settings.technique == Technique::Epipolar &&
-                       std::isfinite(frame_.settings.spreadThreshold); // several times the time: no programs for it
-  const bool dims = frame_.eyeCurves.curves.texture != 0;              // the same
+  // Spread and what dims before the eye take several times the time: no programs for them draw into colour at once.
+  const bool spreads =
+      frame_.settings.technique == Technique::Epipolar && std::isfinite(frame_.settings.spreadThreshold);
   const bool blends = passes_.variant.dualSource;
-  if (output.inscatter == 0 && output.transmittance == 0 && !hasDebugView(frame_) && !apart && !spreads && !dims &&
-      blends)
+  if (output.inscatter == 0 && output.transmittance == 0 && !hasDebugView(frame_) && !apart && !spreads &&
+      !optics::isDimmedBeforeEye(frame_) && blends)
     return to;
   to.inscatter = apart ? 0 : inscatter_.texture;
   to.transmittance = transmittance_.texture;

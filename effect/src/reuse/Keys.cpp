@@ -31,8 +31,7 @@ auto fieldsOf(const Settings& s) {
 }
 
 auto fieldsOf(const LightVariant& v) {
-  return std::tie(v.lightKind, v.shadowViews, v.shadowArray, v.bilinear, v.glass, v.eyeCurves, v.layers, v.monochrome,
-                  v.composite);
+  return std::tie(v.lightKind, v.shadowViews, v.shadowArray, v.bilinear, v.glass, v.layers, v.monochrome, v.composite);
 }
 
 bool isStated(std::uint64_t version, std::uint64_t last) { return version != 0 && version == last; }

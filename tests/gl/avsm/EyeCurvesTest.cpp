@@ -2,12 +2,15 @@
 #include "../effect/MediaRig.h"
 #include "../effect/ShaftRig.h"
 #include "AvsmRig.h"
+#include "reference/CameraRays.h"
 #include "reference/Metrics.h"
 #include "support/Catch.h"
 #include "support/ShaftsLookup.h"
 
 #include <cmath>
 #include <functional>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
 #include <random>
 
 using namespace tyndall;
@@ -321,4 +324,146 @@ TEST_CASE("eye curves that break their rules are refused, field and rule named")
   checkRefused("farDistance is nan", [&](Frame& f) { f.eyeCurves.farDistance = nan; });
   checkRefused("farDistance is inf", [](Frame& f) { f.eyeCurves.farDistance = kInfinity; });
   checkRefused("farDistance is 1e+09", [](Frame& f) { f.eyeCurves.farDistance = 1e9; });
+}
+
+TEST_CASE("eye curves: jitter, several depths a pixel, cascades, smoke before the light and any number of nodes") {
+  if (!tests::hasAvsm()) return;
+  SECTION("curves are of the camera at rest") {
+    tests::SceneRig rig = sceneOf(LightKind::Spot, false);
+    rig.frame.settings.technique = Technique::Exact;
+    Smoke smoke;
+    smoke.enter(rig, puffs(8));
+    // By a whole pixel: the picture is the one beside it, of what the same distances hold.
+    for (double& distance : rig.distances)
+      distance = 9;
+    rig.setConvention({});
+    const reference::Image still = rig.render().inscatter;
+    tests::SceneRig flat = sceneOf(LightKind::Spot, false);
+    const reference::Image aside = [&] {
+      flat.distances.assign(flat.distances.size(), 9);
+      flat.setConvention({});
+      flat.frame.settings.technique = Technique::Exact;
+      flat.frame.eyeCurves = rig.frame.eyeCurves;
+      Camera& camera = flat.frame.camera;
+      camera.jitter = {1, 0};
+      const glm::dmat4 by = glm::translate(glm::dmat4(1), glm::dvec3(2.0 / 24, 0, 0));
+      camera.clipFromView = tests::toMat4(by * reference::toMat4(camera.clipFromView));
+      return flat.render().inscatter;
+    }();
+    double most = 0, sum = 0;
+    for (int y = 0; y < 16; ++y)
+      for (int x = 1; x < 24; ++x) {
+        const auto a = aside.at(x, y), b = still.at(x - 1, y);
+        most = std::max(most, glm::length(a - b));
+        sum += glm::length(b) / (16 * 23);
+      }
+    CHECK(sum > 0);
+    CHECK(most <= 1e-3 * sum);
+  }
+  SECTION("several depths a pixel") {
+    tests::SceneRig rig = sceneOf(LightKind::Spot, false);
+    rig.frame.settings.technique = Technique::Exact;
+    Smoke smoke;
+    smoke.enter(rig, puffs(8));
+    const std::vector<float> depth = rig.depth();
+    rig.setMultisampledDepth(4, GL_DEPTH_COMPONENT32F, [&](int pixel, int sample) {
+      return depth[static_cast<std::size_t>(pixel)] * (1 - 0.1F * static_cast<float>(sample));
+    });
+    const double with = rRmse(rig.render().inscatter, rig.reference().inscatter);
+    rig.frame.eyeCurves = {};
+    rig.eyeCurves = {};
+    const double without = rRmse(rig.render().inscatter, rig.reference().inscatter);
+    CAPTURE(with, without);
+    CHECK(with <= without + 1e-3);
+  }
+  SECTION("cascades and smoke before the light") {
+    tests::ShaftRig shafts(48, 32);
+    Light sun = tests::shaftLight(LightKind::Directional);
+    sun.shadow.views = tests::shadowViews(sun, 3);
+    shafts.addLight(sun, 128);
+    tests::SceneRig& rig = shafts.scene;
+    AvsmConfig config = Smoke::config(false);
+    config.layers = 3;
+    tests::AvsmRig before(config);
+    for (int i = 0; i < 2; ++i)
+      before.capture(puffs(9));
+    rig.frame.lights[0].curves = before.avsm().curves();
+    rig.curves = {before.map()};
+    Smoke smoke(true);
+    smoke.enter(rig, puffs(8));
+    rig.frame.settings.technique = Technique::Exact;
+    const reference::Image exact = rig.render().inscatter;
+    CHECK(rRmse(exact, rig.reference().inscatter) <= 2e-3); // as without smoke before the eye
+    rig.frame.settings.technique = Technique::Tree;
+    CHECK(rRmse(rig.render().inscatter, exact) <= 0.05);
+  }
+  SECTION("nodes") {
+    for (const int nodes : {4, 12, 16})
+      for (const bool packed : {false, true}) {
+        tests::SceneRig rig = sceneOf(LightKind::Point, false);
+        AvsmConfig config = Smoke::config(packed);
+        config.nodes = nodes;
+        tests::AvsmRig map(config);
+        for (int i = 0; i < 2; ++i)
+          map.capture(puffs(3));
+        rig.frame.eyeCurves = {map.avsm().curves(), kNear, kFar};
+        rig.eyeCurves = map.map();
+        rig.frame.settings.technique = Technique::Exact;
+        CAPTURE(nodes, packed);
+        CHECK(rRmse(rig.render().inscatter, rig.reference().inscatter) <= 1e-3);
+      }
+  }
+  SECTION("low rank says that it is tree") {
+    tests::SceneRig rig = sceneOf(LightKind::Point, true);
+    Smoke smoke;
+    smoke.enter(rig, puffs(3));
+    rig.frame.settings.technique = Technique::Tree;
+    const reference::Image tree = rig.render().inscatter;
+    rig.frame.settings.technique = Technique::LowRank;
+    CHECK(rig.render().inscatter.rgb == tree.rgb);
+    const Statistics statistics = tests::testEffect().statistics();
+    const PassStatistics* pass = passNamed(statistics, "light 0 low rank");
+    REQUIRE(pass);
+    CHECK(pass->skipped == "what stands before the eye dims each ray in its own way");
+  }
+}
+
+TEST_CASE("eye curves: a strand as thin as a texel is whole, wherever slices' march samples are") {
+  if (!tests::hasAvsm()) return;
+  constexpr int kTexels = 64;
+  tests::SceneRig rig(640, 64);
+  Light sun = tests::shaftLight(LightKind::Directional);
+  sun.direction = {0.9, -0.35, 0.15};
+  rig.frame.lights = {sun};
+  rig.frame.medium = haze();
+  rig.distances.assign(rig.distances.size(), 15);
+  rig.setConvention({});
+  AvsmConfig config;
+  config.size = kTexels;
+  config.packed = false;
+  tests::AvsmRig map(config);
+  std::vector<tests::Captured> strand;
+  for (int y = 0; y < kTexels; ++y)
+    strand.push_back({{kTexels / 2, y, 0}, 0.1F, 0.1F, 0});
+  for (int i = 0; i < 2; ++i)
+    map.capture(strand);
+  rig.frame.eyeCurves = {map.avsm().curves(), kNear, kFar};
+  rig.frame.settings.samples = 256; // regular ones are 40 pixels apart, the strand is 10 wide
+  rig.frame.settings.technique = Technique::Exact;
+  const reference::Image exact = rig.render().inscatter;
+  rig.frame.settings.technique = Technique::Epipolar;
+  const double wanted = exact.at(325, 32).x / exact.at(360, 32).x;
+  CHECK(wanted < 0.5);
+  // The most that is left in its middle, in parts of what is beside it.
+  const auto shallowest = [&](const reference::Image& image) {
+    double most = 0;
+    for (int y = 4; y < 60; ++y)
+      most = std::max(most, image.at(325, y).x / exact.at(360, y).x);
+    return most;
+  };
+  const reference::Image fast = rig.render().inscatter;
+  CHECK(shallowest(fast) < wanted + 0.25); // samples are a quarter of its width apart
+  CHECK(rRmse(fast, exact) < 0.01);
+  rig.frame.settings.bendThreshold = std::numeric_limits<float>::infinity(); // by regular samples alone it is missed
+  CHECK(shallowest(rig.render().inscatter) > wanted + 0.4);
 }

@@ -160,14 +160,19 @@ TEST_CASE("the statistics tell what the shadows of smoke cost, if there are any"
   };
   run({"--avsm-size", "32", "--avsm-nodes", "4"});
   const nlohmann::json avsm = nlohmann::json::parse(folder.read("s.json")).at("avsm");
-  REQUIRE(avsm.size() == 1);
+  REQUIRE(avsm.size() == 2);
   CHECK(avsm[0].at("light") == 0);
-  CHECK(avsm[0].at("segments") > 100);
-  CHECK(avsm[0].at("lost") == 0);
-  CHECK(avsm[0].at("list_bytes") > 32 * 32 * 32);
-  CHECK(avsm[0].at("curve_bytes") == 32 * 32 * 16);
-  CHECK(avsm[0].at("capture_ms") > 0);
-  CHECK_FALSE(avsm[0].at("passes").empty());
+  CHECK(avsm[1].at("eye") == true);
+  for (const nlohmann::json& map : avsm) {
+    CHECK(map.at("segments") > 100);
+    CHECK(map.at("lost") == 0);
+    CHECK(map.at("list_bytes") > 32 * 32 * 32);
+    CHECK(map.at("curve_bytes") == 32 * 32 * 16);
+    CHECK(map.at("capture_ms") > 0);
+    CHECK_FALSE(map.at("passes").empty());
+  }
+  run({"--no-eye-curves"});
+  CHECK(nlohmann::json::parse(folder.read("s.json")).at("avsm").size() == 1);
   CHECK(run({"--no-avsm"}).err.find("smoke and strands") == std::string::npos);
   CHECK_FALSE(nlohmann::json::parse(folder.read("s.json")).contains("avsm"));
 }

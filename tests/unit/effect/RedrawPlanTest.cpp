@@ -174,7 +174,6 @@ TEST_CASE("a light with another map's size, program or smoke is another") {
                                                     [](LightKey& l) { l.variant.shadowArray = true; },
                                                     [](LightKey& l) { l.variant.layers = 1; },
                                                     [](LightKey& l) { l.variant.monochrome = true; },
-                                                    [](LightKey& l) { l.variant.eyeCurves = true; },
                                                     [](LightKey& l) { l.curves.texture = 3; },
                                                     [](LightKey& l) { l.block.lightColour.y = 1; }};
   for (std::size_t change = 0; change < changes.size(); ++change) {

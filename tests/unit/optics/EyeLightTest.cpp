@@ -4,6 +4,7 @@
 #include "support/Catch.h"
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <tyndall/avsm.h>
 
 using namespace tests;
@@ -14,6 +15,7 @@ using tyndall::Light;
 
 namespace {
 
+constexpr tyndall::Rectangle kImage{0, 0, 64, 40};
 const dvec3 kEye(3, -2, 7), kDirection(0.4, -0.2, -1);
 
 dvec3 ndcOf(const glm::dmat4& clipFromWorld, const dvec3& point) {
@@ -31,13 +33,23 @@ TEST_CASE("a light at the eye has the camera's image, and depth from 0 at one pl
       Camera camera = cameraOf(p, scale * kEye, kDirection);
       const double near = 2 * scale, far = 37 * scale;
       Light light;
-      REQUIRE(tyndall::eyeLight(camera, near, far, light));
+      REQUIRE(tyndall::eyeLight(camera, kImage, near, far, light));
       std::array<double, 4> depth{};
       REQUIRE(tyndall::avsmDepth(light, 0, depth));
       REQUIRE(light.shadow.views.size() == 1);
       CHECK(light.shadow.texture == 0);
       const glm::dmat4 image = host::fromMat4(camera.clipFromView) * host::fromMat4(camera.viewFromWorld),
                        seen = host::fromMat4(light.shadow.views[0].clipFromWorld);
+      Camera moved = camera; // by a jitter, which the light is without
+      moved.jitter = {0.3, -0.4};
+      moved.clipFromView =
+          host::toMat4(glm::translate(glm::dmat4(1), dvec3(0.6 / kImage.width, -0.8 / kImage.height, 0)) *
+                       host::fromMat4(camera.clipFromView));
+      Light still;
+      REQUIRE(tyndall::eyeLight(moved, kImage, near, far, still));
+      for (std::size_t i = 0; i < 16; ++i)
+        CHECK(still.shadow.views[0].clipFromWorld[i] ==
+              Approx(light.shadow.views[0].clipFromWorld[i]).margin(1e-9 * scale));
       const dvec3 forward = glm::normalize(kDirection), origin = tyndall::optics::cameraOrigin(camera);
       const double low = camera.clipDepth == ClipDepth::ZeroToOne ? 0 : -1;
       for (int i = 0; i < 200; ++i) {
@@ -64,7 +76,7 @@ TEST_CASE("a light at the eye is refused where the planes or the camera break a 
   const auto messageOf = [](const Camera& camera, double near, double far) {
     Light light;
     light.range = 17;
-    const tyndall::Status status = tyndall::eyeLight(camera, near, far, light);
+    const tyndall::Status status = tyndall::eyeLight(camera, kImage, near, far, light);
     CHECK(status.code == tyndall::StatusCode::InvalidFrame);
     CHECK(light.range == 17); // left as it was
     return status.message;
@@ -80,12 +92,14 @@ TEST_CASE("a light at the eye is refused where the planes or the camera break a 
       CHECK_THAT(messageOf(camera, 1, far), contains("eyeCurves.farDistance is "));
     Light light;
     if (orthographic) {
-      CHECK(tyndall::eyeLight(camera, 0, 5, light));
-      CHECK(tyndall::eyeLight(camera, 1e-9, 5, light));
+      CHECK(tyndall::eyeLight(camera, kImage, 0, 5, light));
+      CHECK(tyndall::eyeLight(camera, kImage, 1e-9, 5, light));
     } else {
       CHECK_THAT(messageOf(camera, 0, 5), contains("eyeCurves.nearDistance is 0"));
       CHECK_THAT(messageOf(camera, 1e-6, 5), contains("at most 1e6 times"));
     }
+    const tyndall::Status noImage = tyndall::eyeLight(camera, {}, 1, 5, light);
+    CHECK_THAT(noImage.message, contains("viewport.width is 0"));
     Camera broken = camera;
     broken.clipFromView = {};
     CHECK_THAT(messageOf(broken, 1, 5), contains("camera.clipFromView"));
