@@ -64,6 +64,11 @@ void startRow(Airlight light, ViewSegment segment, int slice, out RowLine line, 
   // The longest texel of a projection that may be a perspective one.
   float texel = (segment.s1 - segment.s0) * line.inverse * max(segment.weight, 1.0 / segment.weight);
   line.evenLevel = min(int(floor(0.5 * log2(clamp(evenLength(light, averageThreshold, segment.s0, segment.s1) / max(texel, 1e-30), 1.0, 1e9)))), kMostEven);
+#if CURVES && defined(ROW_CURVES)
+  // Nor longer than a cell of the curves, from one to the next of which they may let all or nothing through.
+  float cell = float(max(shadowViews[segment.view].size.x, shadowViews[segment.view].size.y)) / (float(curvesSize) * max(abs(row.z), abs(row.w)));
+  line.evenLevel = min(line.evenLevel, int(floor(0.5 * log2(max(cell, 1.0)))));
+#endif
 #ifdef TINT_SUMS
   line.tintSums = lowRank.valid;
 #if FADES
