@@ -39,11 +39,7 @@ vec2 eyePassed(float s0, float s1) {
   return vec2(passed.x, clamp(passed.y, -most, most));
 }
 
-#ifdef ROW_CURVES
-const float kEyePieces = 32.0; // of what dims, at most; of light that changes fast
-#else
-const float kEyePieces = 256.0;
-#endif
+const float kEyePieces = 256.0; // of what dims, at most: where light changes fast
 
 // How far from s on the transmittance changes by little: for what takes light in pieces of its own.
 float eyeSteadyLength(float s) {

@@ -42,13 +42,18 @@ Layers relativeFall(Layers x, Layers passed) {
   return moreThan(x, Layers(0.1), (1.0 - passed) / max(x, 0.1), 1.0 + x * (-1.0 / 2.0 + x * (1.0 / 6.0 + x * (-1.0 / 24.0 + x * (1.0 / 120.0)))));
 }
 
-// The mean density on the way between two exponents, of the densities there: of what lies below the ground that of the ground; above, it falls
-// from the lower end on.
-Layers meanDensities(Layers a, Layers b, Layers densityA, Layers densityB) {
+// The mean density on the way between two exponents, as a share of the greater one: of what lies below the ground that of the ground; above,
+// it falls from the lower end on.
+Layers meanShares(Layers a, Layers b) {
   Layers ground = groundExponents(), above = abs(max(a, ground) - max(b, ground)), width = abs(b - a);
   Layers share = moreThan(width, above, above / max(width, 1e-37), Layers(1.0)); // of the way that lies above the ground
-  return max(densityA, densityB) * (1.0 - share + share * relativeFall(above, exp(-above)));
+  return 1.0 - share + share * relativeFall(above, exp(-above));
 }
+
+Layers meanDensities(Layers a, Layers b) { return densities(min(a, b)) * meanShares(a, b); }
+
+// The same where the densities there are known.
+Layers meanDensities(Layers a, Layers b, Layers densityA, Layers densityB) { return max(densityA, densityB) * meanShares(a, b); }
 
 // On the way from the ray's origin to where the exponents and densities are these.
 Layers meanDensities(Heights heights, Layers there, Layers density) { return meanDensities(heights.begin, there, heights.beginDensity, density); }
