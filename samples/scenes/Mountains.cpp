@@ -16,7 +16,8 @@ std::vector<double> upliftOf(const HeightField& field, const Range& range) {
   for (int y = 0; y < field.size; ++y)
     for (int x = 0; x < field.size; ++x) {
       const glm::dvec2 p(x / last, y / last);
-      const glm::dvec2 bent = 4.0 * p + 0.45 * glm::dvec2(fractal(3.0 * p, 3, range.seed + 11), fractal(3.0 * p, 3, range.seed + 23));
+      const glm::dvec2 bent =
+          4.0 * p + 0.45 * glm::dvec2(fractal(3.0 * p, 3, range.seed + 11), fractal(3.0 * p, 3, range.seed + 23));
       const double edge = std::min({p.x, p.y, 1 - p.x, 1 - p.y});
       const double rise = std::clamp(edge / 0.12, 0.0, 1.0);
       uplift.push_back(range.uplift * rise * (0.18 + 1.25 * ridged(bent, 4, range.seed + 31)));

@@ -9,9 +9,9 @@
 namespace scenes {
 
 struct Range {
-  double side = 20000;  ///< metres
-  double uplift = 250;  ///< metres a step where it is strongest
-  double detail = 60;   ///< metres of the finest relief, high up
+  double side = 20000; ///< metres
+  double uplift = 250; ///< metres a step where it is strongest
+  double detail = 60;  ///< metres of the finest relief, high up
   int seed = 0;
 };
 

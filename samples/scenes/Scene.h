@@ -96,7 +96,8 @@ struct Constituent {
   int layer = -1;           ///< of the scene's; -1: none
 };
 
-/// Of the medium, as extras.tyndall.medium has it: thinner by 1/e each `scale`, from 1 at `height`; even below `ground`.
+/// Of the medium, as extras.tyndall.medium has it: thinner by 1/e each `scale`, from 1 at `height`; even below
+/// `ground`.
 struct Layer {
   double height = 0, scale = 1, ground = 0; ///< metres
 };
@@ -113,9 +114,9 @@ struct Scene {
   std::vector<Constituent> constituents;
   glm::dvec3 absorption{0}; ///< 1/metre
   std::vector<Layer> layers;
-  double farDistance = 0;  ///< metres; 0: none
-  glm::dvec3 ambient{0};   ///< radiance of the surroundings, which the medium scatters
-  glm::dvec3 sky{0};        ///< radiance of the sky and of ambient light
+  double farDistance = 0; ///< metres; 0: none
+  glm::dvec3 ambient{0};  ///< radiance of the surroundings, which the medium scatters
+  glm::dvec3 sky{0};      ///< radiance of the sky and of ambient light
   /// Positions are rounded to this step, so that the last bits of sin and cos do not reach the file and points
   /// that are meant to coincide do.
   double grid = 1.0 / 16384;

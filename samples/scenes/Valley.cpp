@@ -128,8 +128,8 @@ Scene makeValley() {
   scene.sky = {0.9, 1.15, 1.6};
 
   const std::vector<int> materials = {
-      scene.add({"meadow", {0.075, 0.10, 0.035}}),   scene.add({"undergrowth", {0.035, 0.042, 0.02}}),
-      scene.add({"scree", {0.20, 0.185, 0.165}}),     scene.add({"rock", {0.17, 0.15, 0.13}}),
+      scene.add({"meadow", {0.075, 0.10, 0.035}}),     scene.add({"undergrowth", {0.035, 0.042, 0.02}}),
+      scene.add({"scree", {0.20, 0.185, 0.165}}),      scene.add({"rock", {0.17, 0.15, 0.13}}),
       scene.add({"dark rock", {0.105, 0.095, 0.085}}), scene.add({"snow", {0.82, 0.84, 0.88}})};
   const std::array<int, 2> needles = {scene.add({"spruce", {0.022, 0.04, 0.018}}),
                                       scene.add({"larch", {0.045, 0.055, 0.02}})};

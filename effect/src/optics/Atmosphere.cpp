@@ -43,7 +43,8 @@ Medium airOf(const Atmosphere& atmosphere) {
   const double unit = 1 / atmosphere.metre; // of coefficients
   Medium air;
   air.up = atmosphere.up;
-  air.layers = {{atmosphere.seaLevel, kMolecules * atmosphere.metre}, {atmosphere.seaLevel, kAerosols * atmosphere.metre}};
+  air.layers = {{atmosphere.seaLevel, kMolecules * atmosphere.metre},
+                {atmosphere.seaLevel, kAerosols * atmosphere.metre}};
   air.constituents = {{toRgb(unit * kRayleigh), Phase::Rayleigh, 0, 0},
                       {toRgb(glm::dvec3(unit * atmosphere.haze * kMieScattering)), Phase::CornetteShanks, 0.8F, 1}};
   air.absorption = toRgb(glm::dvec3(unit * atmosphere.haze * kMieAbsorption));
