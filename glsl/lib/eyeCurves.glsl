@@ -26,7 +26,7 @@ void startEyePath(vec2 position, Ray ray) {
   eyePath.passed = ends.z;
 }
 
-// Mean and first moment of the transmittance from one distance to another; the moment so small that neither half of the line is beyond 0 to 1.
+// Mean and first moment of the transmittance from one distance to another.
 vec2 eyePassed(float s0, float s1) {
   float nearer = eyePath.depth.x + s0 * eyePath.depth.y, farther = max(eyePath.depth.x + s1 * eyePath.depth.y, nearer + 1e-7);
   vec2 passed = vec2(0.0);
@@ -35,8 +35,7 @@ vec2 eyePassed(float s0, float s1) {
     ivec3 texel = eyeTexel(eyePath.place, k, weight);
     passed += weight * curveBetween(eyeCurves, texelsPerEyeCurve, eyeCurvesPacked, texel, nearer, farther);
   }
-  float most = 0.5 * max(min(passed.x, 1.0 - passed.x), 0.0);
-  return vec2(passed.x, clamp(passed.y, -most, most));
+  return passed;
 }
 
 const float kEyePieces = 256.0; // of what dims, at most: where light changes fast
@@ -58,6 +57,9 @@ void addSeen(Airlight light, float s0, float s1, Visibility mean, Visibility mom
     }
     vec2 passed = dims ? eyePassed(from, to) : vec2(before ? 1.0 : eyePath.passed, 0.0);
     VisibilityLine own = dimmedBy(partOf(VisibilityLine(mean, moment), s0, s1, from, to), passed);
+    own.mean = clamp(own.mean, Visibility(0.0), Visibility(1.0)); // lines are no more than near to what is between 0 and 1, as are their halves
+    Visibility most = 0.5 * min(own.mean, 1.0 - own.mean);
+    own.moment = clamp(own.moment, -most, most);
     if (passed.x > 0.0) addWeighted(light, from, to, own.mean, own.moment, sum);
     from = to;
   }

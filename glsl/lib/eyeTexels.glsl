@@ -15,13 +15,14 @@ ivec3 eyeTexel(vec2 place, int k, out float weight) {
   return ivec3(clamp(ivec2(low) + step, ivec2(0), ivec2(eyeCurvesSize - 1)), 0);
 }
 
-// What passes behind all that is there.
-float eyePassedBehind(vec2 place) {
-  float passed = 0.0;
+// What passes on the whole, a mean over depth from the near to the far plane, and behind all that is there: what a place's curves are told by.
+vec2 eyePassedAt(vec2 place) {
+  vec2 passed = vec2(0.0);
   for (int k = 0; k < 4; ++k) {
     float weight;
     ivec3 texel = eyeTexel(place, k, weight);
-    passed += weight * curveNodes(eyeCurves, texelsPerEyeCurve, eyeCurvesPacked, texel, texelsPerEyeCurve - 1).passed.w;
+    float mean = curveBetween(eyeCurves, texelsPerEyeCurve, eyeCurvesPacked, texel, 0.0, 1.0).x;
+    passed += weight * vec2(mean, curveEnds(eyeCurves, texelsPerEyeCurve, eyeCurvesPacked, texel).z);
   }
   return passed;
 }

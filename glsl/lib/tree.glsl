@@ -65,9 +65,9 @@ void startRow(Airlight light, ViewSegment segment, int slice, out RowLine line, 
   float texel = (segment.s1 - segment.s0) * line.inverse * max(segment.weight, 1.0 / segment.weight);
   line.evenLevel = min(int(floor(0.5 * log2(clamp(evenLength(light, averageThreshold, segment.s0, segment.s1) / max(texel, 1e-30), 1.0, 1e9)))), kMostEven);
 #if CURVES && defined(ROW_CURVES)
-  // Nor longer than a cell of the curves, from one to the next of which they may let all or nothing through.
-  float cell = float(max(shadowViews[segment.view].size.x, shadowViews[segment.view].size.y)) / (float(curvesSize) * max(abs(row.z), abs(row.w)));
-  line.evenLevel = min(line.evenLevel, int(floor(0.5 * log2(max(cell, 1.0)))));
+  // Nor longer than a cell of the curves, from one to the next of which they may let all or nothing through: in texels of the row.
+  vec2 cells = vec2(shadowViews[segment.view].size) / (float(curvesSize) * max(abs(row.zw), vec2(1e-3)));
+  line.evenLevel = min(line.evenLevel, int(floor(0.5 * log2(max(1.01 * min(cells.x, cells.y), 1.0)))));
 #endif
 #ifdef TINT_SUMS
   line.tintSums = lowRank.valid;

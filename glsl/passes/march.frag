@@ -63,8 +63,9 @@ Spectrum factorOf(Ray ray) {
 }
 
 void main() {
-  Target target = pixelTarget();
+  Target target;
   if (isImage == 0) target = sampleTarget();
+  else target = pixelTarget();
   if (!target.marched) discard;
   float end = target.marched ? max(target.end, 0.0) : 0.0;
 #ifdef SHARES

@@ -56,13 +56,15 @@ float openTo(Open open, float end) {
 // Which samples of a segment show what stands before the eye where a line from its begin to its end does not tell, by a few of bendThreshold.
 int seenInSegment(int slice, int from, int samples) {
   vec4 ends = sliceEnds(slice);
-  float begin = eyePassedBehind(eyePlace(samplePosition(ends, samples, float(from)))), most = 0.0;
-  float end = eyePassedBehind(eyePlace(samplePosition(ends, samples, float(min(from + 16, samples - 1)))));
-  for (int k = 2; k < 16; k += 2) {
-    float passed = eyePassedBehind(eyePlace(samplePosition(ends, samples, float(min(from + k, samples - 1)))));
-    most = max(most, abs(passed - mix(begin, end, float(k) / 16.0)));
+  int last = min(16, samples - 1 - from);
+  vec2 begin = eyePassedAt(eyePlace(samplePosition(ends, samples, float(from)))), most = vec2(0.0);
+  vec2 end = eyePassedAt(eyePlace(samplePosition(ends, samples, float(from + last))));
+  for (int k = 2; k < last; k += 2) {
+    vec2 passed = eyePassedAt(eyePlace(samplePosition(ends, samples, float(from + k))));
+    most = max(most, abs(passed - mix(begin, end, float(k) / float(last))));
   }
-  return most > 32.0 * bendThreshold ? 0xFFFF : most > 16.0 * bendThreshold ? 0x5555 : most > 4.0 * bendThreshold ? 0x1111 : 0;
+  float off = max(most.x, most.y);
+  return off > 32.0 * bendThreshold ? 0xFFFF : off > 16.0 * bendThreshold ? 0x5555 : off > 4.0 * bendThreshold ? 0x1111 : 0;
 }
 #endif
 

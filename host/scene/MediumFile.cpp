@@ -144,7 +144,14 @@ tyndall::Medium parseAtmosphere(const json& value, const std::string& where) {
   if (value.contains("haze")) atmosphere.haze = parseNumber(value["haze"], where + ".haze");
   if (!(atmosphere.haze >= 0)) refuse(where + ".haze", value["haze"].dump() + " must be 0 or greater");
   if (value.contains("up")) atmosphere.up = parseUp(value["up"], where + ".up");
-  return tyndall::airOf(atmosphere);
+  tyndall::Medium air = tyndall::airOf(atmosphere);
+  for (const tyndall::Constituent& constituent : air.constituents) {
+    for (const float sigma : constituent.scattering) {
+      const bool isHeld = std::isfinite(sigma) && (sigma > 0 || atmosphere.haze == 0);
+      if (!isHeld) refuse(where, "metre or haze is beyond what 32-bit floats hold");
+    }
+  }
+  return air;
 }
 
 } // namespace

@@ -4,8 +4,9 @@
 // last two. What thins out with height: "layers": [{"height": h, "scale": H, "ground": h}] (world units; without a
 // scale density is the same everywhere, without a ground it grows on below), at most two, along "up": [x, y, z] ([0, 1,
 // 0]); "layer": i of a constituent, and "absorptionLayer": i, are those that they follow. "dimsBackground": false makes
-// it add its light and dim nothing. Light of the surroundings: {"radiance": [r, g, b], "harmonics": [[r, g, b], ...]},
-// of which there are at most nine; what is left out is 0.
+// it add its light and dim nothing. In place of all that {"atmosphere": {"metre": u, "seaLevel": h, "haze": x, "up":
+// [x, y, z]}} is Earth's air (tyndall/atmosphere.h), each with its default. Light of the surroundings: {"radiance": [r,
+// g, b], "harmonics": [[r, g, b], ...]}, of which there are at most nine; what is left out is 0.
 #pragma once
 
 #include <filesystem>

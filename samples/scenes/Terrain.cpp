@@ -1,12 +1,56 @@
 // Mountains after the TERRAIN scene of Chen et al. 2011: low sun behind ridges and kilometres of haze.
+#include "Ground.h"
 #include "MeshBuilder.h"
-#include "Mountains.h"
 #include "Noise.h"
 #include <algorithm>
 #include <cmath>
 
 namespace scenes {
 namespace {
+
+constexpr int kCoarse = 151; ///< points a side before the refinements: 151, 301, 601
+constexpr double kSide = 20000;
+constexpr double kUplift = 250; ///< metres a step where it is strongest
+
+/// Relative uplift: a ridged range, less towards the border.
+std::vector<double> upliftOf(const HeightField& field, double strength) {
+  std::vector<double> uplift;
+  const double last = field.size - 1;
+  for (int y = 0; y < field.size; ++y)
+    for (int x = 0; x < field.size; ++x) {
+      const glm::dvec2 p(x / last, y / last);
+      const glm::dvec2 bent = 4.0 * p + 0.45 * glm::dvec2(fractal(3.0 * p, 3, 11), fractal(3.0 * p, 3, 23));
+      const double edge = std::min({p.x, p.y, 1 - p.x, 1 - p.y});
+      const double rise = std::clamp(edge / 0.12, 0.0, 1.0);
+      uplift.push_back(strength * rise * (0.18 + 1.25 * ridged(bent, 4, 31)));
+    }
+  return uplift;
+}
+
+HeightField mountains() {
+  HeightField field;
+  field.size = kCoarse;
+  field.cell = kSide / (kCoarse - 1);
+  for (int y = 0; y < kCoarse; ++y)
+    for (int x = 0; x < kCoarse; ++x)
+      field.heights.push_back(12 * (1 + fractal({0.11 * x, 0.11 * y}, 4, 3)));
+  Rivers rivers;
+  rivers.creep = 0.04;
+  erode(field, upliftOf(field, kUplift), rivers, 90);
+  field = refined(field);
+  rivers.creep = 0.08;
+  erode(field, upliftOf(field, kUplift), rivers, 16);
+  field = refined(field);
+  rivers.creep = 0.15;
+  erode(field, upliftOf(field, kUplift), rivers, 5);
+  for (int y = 0; y < field.size; ++y)
+    for (int x = 0; x < field.size; ++x) {
+      const double rough = std::clamp(field.at(x, y) / 1500, 0.1, 1.0);
+      field.at(x, y) += 60 * rough * (ridged({0.055 * x, 0.055 * y}, 5, 71) - 0.4);
+    }
+  limitSlope(field, 1.3);
+  return field;
+}
 
 enum Cover { Grass, Forest, Scree, Rock, DarkRock, Snow };
 
@@ -40,7 +84,7 @@ Scene makeTerrain() {
       scene.add({"scree", {0.24, 0.22, 0.19}}),      scene.add({"rock", {0.19, 0.165, 0.14}}),
       scene.add({"dark rock", {0.13, 0.115, 0.10}}), scene.add({"snow", {0.82, 0.84, 0.88}})};
   MeshBuilder mesh(scene);
-  cover(mesh, {mountains({})}, coverAt, materials);
+  cover(mesh, {mountains()}, coverAt, materials);
   return scene;
 }
 

@@ -1,6 +1,6 @@
 // A valley in the morning: a low sun behind ridges, fog on the valley's floor, and thinner air above it.
+#include "Ground.h"
 #include "MeshBuilder.h"
-#include "Mountains.h"
 #include "Noise.h"
 #include "Random.h"
 #include <algorithm>

@@ -131,7 +131,8 @@ private:
       return shadowedInscatter(lights_[i], airlight, ray, from, to);
     constexpr double kSteps = 2000; // of the whole ray
     if (!(to > from)) return Rgb(0);
-    const int steps = 1 + static_cast<int>(std::ceil(kSteps * (to - from) / end));
+    const int steps =
+        std::isinf(end) ? static_cast<int>(kSteps) : 1 + static_cast<int>(std::ceil(kSteps * (to - from) / end));
     Rgb sum(0);
     for (int k = 0; k < steps; ++k) {
       const double begin = from + (to - from) * k / steps, behind = from + (to - from) * (k + 1) / steps;

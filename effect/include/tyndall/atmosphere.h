@@ -23,9 +23,9 @@ Medium airOf(const Atmosphere& atmosphere);
 
 /// The share of the sun's light that the air above a height (world units along Atmosphere::up) lets through, ozone and
 /// a round Earth's longer ways included: what to multiply Light::colour by, which airOf()'s medium does not dim before
-/// it reaches the scene. elevation: of the sun over the horizon, radians; 0 below it. To 1 % of the optical depth from
-/// 10 degrees on, 4 % at the horizon (Smith and Smith 1972, "Numerical evaluation of Chapman's grazing incidence
-/// integral").
+/// it reaches the scene. elevation: of the sun over the horizon, radians; 0 below it. From 0 to 11 km: to 1 % of the
+/// optical depth from 10 degrees on, 4 % at the horizon (Smith and Smith 1972, "Numerical evaluation of Chapman's
+/// grazing incidence integral").
 Rgb sunThroughAir(const Atmosphere& atmosphere, double height, double elevation);
 
 } // namespace tyndall

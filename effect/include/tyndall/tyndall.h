@@ -1,6 +1,7 @@
 // Tyndall: volumetric shadows and light shafts as an OpenGL post-process effect.
 //
-// This header is the whole public interface. An engine creates one Effect per GL context, describes a frame and calls
+// This header is the whole public interface but for smoke and hair (tyndall/avsm.h) and Earth's air
+// (tyndall/atmosphere.h). An engine creates one Effect per GL context, describes a frame and calls
 // render() once; the effect adds single-scattered light with volumetric shadows to the engine's colour texture.
 //
 //     out(v) = back(v) T(d) + sum over lights of  integral_0^d T(s) C(s) [sum_k sigma_k p_k] E V G A ds
@@ -256,7 +257,8 @@ struct HeightLayer {
   double ground = -kInfinity; ///< world units, not NaN, < infinity
 };
 
-/// A medium that fills all space. Extinction is the sum of all scattering and the absorption.
+/// A medium that fills all space; Earth's air is one of airOf()'s (tyndall/atmosphere.h). Extinction is the sum of all
+/// scattering and the absorption.
 struct Medium {
   std::vector<Constituent> constituents; ///< at most 4
   Rgb absorption = {0, 0, 0};            ///< 1/world unit, finite and >= 0
@@ -444,9 +446,10 @@ struct MovingObject {
 /// itself, before the effect. Low rank is Tree then, and a change of the curves draws all anew. Lights' programs are
 /// others than without: prepare() compiles those of the frame that it is given.
 struct EyeCurves {
-  AvsmCurves curves;       ///< of layer 0; texture 0: nothing stands before the eye
-  double nearDistance = 0; ///< where their depth is 0, as eyeLight() was given it: world units, > 0, orthographic >= 0
-  double farDistance = 0;  ///< and 1: at least 1.0001 and, of a perspective camera, at most 1e6 times that; < 1e30
+  AvsmCurves curves; ///< of layer 0; texture 0: nothing stands before the eye
+  double nearDistance =
+      0; ///< where their depth is 0, as eyeLight() was given it: world units, >= 1e-30, of an orthographic camera >= 0
+  double farDistance = 0; ///< and 1: at least 1.0001 and, of a perspective camera, at most 1e6 times that; < 1e30
 };
 
 /// Textures of the engine's own to write instead of, or besides, blending into Frame::colour. GL_TEXTURE_2D, a float

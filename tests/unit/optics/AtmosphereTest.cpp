@@ -58,11 +58,11 @@ TEST_CASE("the air is two layers of a medium, in whatever unit of length") {
 TEST_CASE("the sun's light through the air is that of an integral over a round Earth") {
   const glm::dvec3 rayleigh(5.802e-6, 13.558e-6, 33.1e-6), absorbed(0.65e-6, 1.881e-6, 0.085e-6);
   for (const double haze : {0.0, 1.0, 5.0})
-    for (const double height : {0.0, 2000.0, 5000.0})
+    for (const double height : {0.0, 2000.0, 5000.0, 8000.0, 11000.0})
       for (const double degrees : {90.0, 45.0, 20.0, 10.0, 5.0, 2.0, 0.0}) {
         const double elevation = degrees * kPi / 180, end = 1.2e6;
         const double m = integral(molecules, height, elevation, end), a = integral(aerosols, height, elevation, end),
-                     o = integral(ozone, 0, elevation, end);
+                     o = integral(ozone, height, elevation, end);
         Atmosphere atmosphere;
         atmosphere.metre = 0.1;
         atmosphere.haze = haze;

@@ -96,6 +96,8 @@ TEST_CASE("A medium may be an atmosphere, and nothing else then", "[scene][mediu
   };
   using Catch::Contains;
   CHECK_THAT(refused("metre", 0), Contains("fog.atmosphere.metre: 0 must be greater than 0"));
+  for (const auto& [field, value] : {std::pair{"haze", 1e50}, std::pair{"metre", 1e-50}, std::pair{"metre", 1e50}})
+    CHECK_THAT(refused(field, value), Contains("fog.atmosphere: metre or haze is beyond what 32-bit floats hold"));
   CHECK_THAT(refused("haze", -1), Contains("fog.atmosphere.haze: -1 must be 0 or greater"));
   CHECK_THAT(refused("seaLevel", "high"), Contains("fog.atmosphere.seaLevel: \"high\" must be a finite number"));
   CHECK_THAT(refused("up", {0, 0, 0}), Contains("fog.atmosphere.up: must not be 0"));
