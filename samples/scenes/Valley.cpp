@@ -10,7 +10,7 @@
 namespace scenes {
 namespace {
 
-constexpr int kPoints = 601; ///< a side
+constexpr int kPoints = 441; ///< a side
 constexpr double kSide = 7200;
 
 double smooth(double low, double high, double x) {
@@ -89,7 +89,7 @@ void cone(MeshBuilder& mesh, const glm::dvec3& foot, double radius, double heigh
 /// Conifers of two cones each.
 void forest(MeshBuilder& mesh, const Ground& ground, const std::array<int, 2>& needles) {
   Random random(5);
-  constexpr int kTries = 110000;
+  constexpr int kTries = 60000;
   for (int i = 0; i < kTries; ++i) {
     const double x = random.between(-2100, 2100);
     const double z = random.between(-2600, 3300);

@@ -153,7 +153,7 @@ Errors errorsOf(Technique technique, LightKind kind, bool glass, const Change& c
 
 } // namespace
 
-TEST_CASE("eye curves: every technique is as near to exact as without them", "[sweep][slow]") {
+TEST_CASE("eye curves: every technique is as near to exact as without them", "[sweep][slow][once]") {
   if (!tests::hasAvsm()) return;
   for (const LightKind kind : kKinds)
     for (const Technique technique : {Technique::Tree, Technique::Epipolar, Technique::LowRank})
