@@ -330,7 +330,8 @@ std::array<double, 2> reachOf(const host::Bounds& box, const tyndall::Camera& ca
 } // namespace
 
 // What smoke leaves of the light behind it, between the planes that hold all of it.
-void SceneDrawer::seeThroughSmoke(const settings::State& state, const Moment& moment, tyndall::Frame& frame) {
+void SceneDrawer::seeThroughSmoke(const settings::State& state, const Moment& moment, const host::RenderTargets& image,
+                                  tyndall::Frame& frame) {
   frame.eyeCurves = {};
   double near = tyndall::kInfinity, far = 0;
   for (const host::SmokeEmitter& emitter : scene_.smoke) {
@@ -350,7 +351,7 @@ void SceneDrawer::seeThroughSmoke(const settings::State& state, const Moment& mo
   if (key != eyeKey_) {
     eyeKey_.clear();
     near = std::clamp(near, kNearest * far, (1 - kThinnest) * far);
-    eyeCurves_ = volumeShadows_->before(*renderer_, frame, near, far);
+    eyeCurves_ = volumeShadows_->before(*renderer_, frame.camera, {0, 0, image.width(), image.height()}, near, far);
     eyeKey_ = std::move(key);
   }
   frame.eyeCurves = eyeCurves_;
@@ -379,7 +380,7 @@ void SceneDrawer::draw(const settings::State& state, const Moment& moment, host:
   fitViews(state, moment, worldFromNode, frame, notes);
   host::Pause::take();
   drawMaps(state, moment, worldFromNode, frame);
-  seeThroughSmoke(state, moment, frame);
+  seeThroughSmoke(state, moment, surfaces, frame);
   jitterCamera(state, moment.jitterPlace, frame.camera);
   const bool isFirst = pose_.empty();
   if (isFirst) addOnce(notes, host::adviceOn(scene_, worldFromNode, frame.camera));

@@ -93,7 +93,8 @@ private:
                     const tyndall::Frame& frame);
   void layOutMaps(const settings::State& state, tyndall::Frame& frame);
   void makeVolumeShadows(const settings::State& state, host::Notes& notes);
-  void seeThroughSmoke(const settings::State& state, const Moment& moment, tyndall::Frame& frame);
+  void seeThroughSmoke(const settings::State& state, const Moment& moment, const host::RenderTargets& image,
+                       tyndall::Frame& frame);
   std::vector<tyndall::MovingObject> movedObjects(const std::vector<glm::dmat4>& worldFromNode, double seconds) const;
 
   /// Of smoke's shadows, as State has them.

@@ -25,10 +25,10 @@ void VolumeShadows::update(host::SceneRenderer& renderer, std::vector<tyndall::L
   }
 }
 
-tyndall::EyeCurves VolumeShadows::before(host::SceneRenderer& renderer, const tyndall::Frame& frame,
-                                         double nearDistance, double farDistance) {
+tyndall::EyeCurves VolumeShadows::before(host::SceneRenderer& renderer, const tyndall::Camera& camera,
+                                         const tyndall::Rectangle& image, double nearDistance, double farDistance) {
   tyndall::Light eye;
-  require(tyndall::eyeLight(frame.camera, frame.viewport, nearDistance, farDistance, eye));
+  require(tyndall::eyeLight(camera, image, nearDistance, farDistance, eye));
   create(eye_, 1);
   capture(eye_, [&] { renderer.captureSmoke(eye, size_); });
   return {eye_.avsm->curves(), nearDistance, farDistance};

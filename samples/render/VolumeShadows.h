@@ -26,10 +26,9 @@ public:
   /// host::Error.
   void update(host::SceneRenderer& renderer, std::vector<tyndall::Light>& lights);
 
-  /// Captures the renderer's smoke before a frame's camera, between two planes (tyndall::eyeLight()). Throws
-  /// host::Error.
-  tyndall::EyeCurves before(host::SceneRenderer& renderer, const tyndall::Frame& frame, double nearDistance,
-                            double farDistance);
+  /// Captures the renderer's smoke before a camera, between two planes (tyndall::eyeLight()). Throws host::Error.
+  tyndall::EyeCurves before(host::SceneRenderer& renderer, const tyndall::Camera& camera,
+                            const tyndall::Rectangle& image, double nearDistance, double farDistance);
 
   /// From now on there is none.
   void forgetEye() { eye_ = {}; }
