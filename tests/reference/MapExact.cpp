@@ -79,24 +79,34 @@ private:
     }
     const double advance = glm::dot(ray.direction, axis_);
     const EyeDimming dimming(scene_.eyeCurves, (x + 0.5) / scene_.width, (y + 0.5) / scene_.height, advance);
+    const auto light = [&](double from, double to) { return lightOf(lights, ray, from, to, end); };
     double from = 0;
     const auto addUpTo = [&](double to) {
-      constexpr double kSteps = 512; // while all is dimmed away
-      const double change = std::abs(dimming.at(to) - dimming.at(from));
-      const int steps =
-          std::isinf(to) ? 1 : 1 + static_cast<int>(std::ceil(kSteps * change)); // no change on to the sky
-      for (int k = 0; k < steps && to > from; ++k) {
-        const double begin = k == 0 ? from : glm::mix(from, to, double(k) / steps),
-                     behind = k + 1 == steps ? to : glm::mix(from, to, double(k + 1) / steps);
-        const double passed = dimming.at(std::isinf(behind) ? 1e30 : 0.5 * (begin + behind));
-        answer.inscatter += passed * lightOf(lights, ray, begin, behind, end);
-      }
+      answer.inscatter += dimmedLight(light, dimming, from, to, light(from, to), 0);
       from = to;
     };
     for (const double bend : dimming.bends())
       if (bend > from && bend < end) addUpTo(bend);
     addUpTo(end);
     return answer;
+  }
+
+  /// Of a stretch of so much light, over which dimming changes evenly: halved until what is in each half no longer
+  /// tells.
+  template <typename LightBetween>
+  static Rgb dimmedLight(const LightBetween& light, const EyeDimming& dimming, double from, double to, const Rgb& all,
+                         int depth) {
+    constexpr int kDeepest = 16;
+    constexpr double kTold = 1e-5;
+    if (std::isinf(to)) return all * dimming.at(1e30); // no change on to the sky
+    const double middle = 0.5 * (from + to), change = std::abs(dimming.at(to) - dimming.at(from));
+    if (change < kTold || depth == kDeepest) return all * dimming.at(middle);
+    const Rgb first = light(from, middle), second = all - first;
+    const Rgb apart = glm::abs(first - second);
+    if (depth > 1 && change * std::max({apart.x, apart.y, apart.z}) < kTold * std::max({all.x, all.y, all.z}))
+      return first * dimming.at(0.5 * (from + middle)) + second * dimming.at(0.5 * (middle + to));
+    return dimmedLight(light, dimming, from, middle, first, depth + 1) +
+           dimmedLight(light, dimming, middle, to, second, depth + 1);
   }
 
   /// Of the surroundings, times the share that is open, and of the lights.
