@@ -42,7 +42,8 @@ const float kEyePieces = 256.0; // of what dims, at most: where light changes fa
 
 // How far from s on the transmittance changes by little: for what takes light in pieces of its own.
 float eyeSteadyLength(float s) {
-  return s < eyePath.begin ? eyePath.begin - s : s < eyePath.end ? max((eyePath.end - eyePath.begin) / 64.0, 1e-6 * s) : 1e30;
+  float piece = max((eyePath.end - eyePath.begin) / 64.0, 1e-6 * s); // also where all but no way is left to the begin
+  return s < eyePath.end ? max(eyePath.begin - s, piece) : 1e30;
 }
 
 // A span's light as it comes to the eye.

@@ -80,9 +80,11 @@ private:
     const double advance = glm::dot(ray.direction, axis_);
     const EyeDimming dimming(scene_.eyeCurves, (x + 0.5) / scene_.width, (y + 0.5) / scene_.height, advance);
     const auto light = [&](double from, double to) { return lightOf(lights, ray, from, to, end); };
+    constexpr double kTold = 3e-6; // of all that the ray has
+    const double told = kTold * brightest(light(0, end));
     double from = 0;
     const auto addUpTo = [&](double to) {
-      answer.inscatter += dimmedLight(light, dimming, from, to, light(from, to), 0);
+      answer.inscatter += dimmedLight(light, dimming, from, to, light(from, to), told);
       from = to;
     };
     for (const double bend : dimming.bends())
@@ -91,22 +93,22 @@ private:
     return answer;
   }
 
-  /// Of a stretch of so much light, over which dimming changes evenly: halved until what is in each half no longer
-  /// tells.
+  static double brightest(const Rgb& light) { return std::max({light.x, light.y, light.z}); }
+
+  /// Of a stretch of so much light, over which dimming changes evenly: halved until it tells no more in which half the
+  /// light is.
   template <typename LightBetween>
   static Rgb dimmedLight(const LightBetween& light, const EyeDimming& dimming, double from, double to, const Rgb& all,
-                         int depth) {
-    constexpr int kDeepest = 16;
-    constexpr double kTold = 1e-5;
+                         double told, int depth = 0) {
+    constexpr int kLeast = 2, kDeepest = 16;
     if (std::isinf(to)) return all * dimming.at(1e30); // no change on to the sky
     const double middle = 0.5 * (from + to), change = std::abs(dimming.at(to) - dimming.at(from));
-    if (change < kTold || depth == kDeepest) return all * dimming.at(middle);
+    if (change * brightest(all) <= told || depth == kDeepest) return all * dimming.at(middle);
     const Rgb first = light(from, middle), second = all - first;
-    const Rgb apart = glm::abs(first - second);
-    if (depth > 1 && change * std::max({apart.x, apart.y, apart.z}) < kTold * std::max({all.x, all.y, all.z}))
+    if (depth >= kLeast && change * brightest(glm::abs(first - second)) <= told)
       return first * dimming.at(0.5 * (from + middle)) + second * dimming.at(0.5 * (middle + to));
-    return dimmedLight(light, dimming, from, middle, first, depth + 1) +
-           dimmedLight(light, dimming, middle, to, second, depth + 1);
+    return dimmedLight(light, dimming, from, middle, first, told, depth + 1) +
+           dimmedLight(light, dimming, middle, to, second, told, depth + 1);
   }
 
   /// Of the surroundings, times the share that is open, and of the lights.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace tests {
 
@@ -109,6 +110,31 @@ bool hasExtension(const std::string& name) {
   for (GLint i = 0; i < count; ++i)
     if (name == reinterpret_cast<const char*>(gl().GetStringi(GL_EXTENSIONS, static_cast<GLuint>(i)))) return true;
   return false;
+}
+
+std::vector<Captured> segmentsOf(const Puffs& puffs, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> uniform(0, 1);
+  const auto within = [&](const glm::vec2& range) { return range.x + range.y * uniform(random); };
+  std::vector<Captured> all;
+  for (int view = 0; view < puffs.views; ++view)
+    for (int puff = 0; puff < puffs.count; ++puff) {
+      glm::vec2 middle; // in this order, whatever the compiler
+      middle.x = static_cast<float>(puffs.size) * uniform(random);
+      middle.y = static_cast<float>(puffs.size) * uniform(random);
+      const float radius = static_cast<float>(puffs.size) * within(puffs.radius);
+      const float at = within(puffs.depth);
+      const float thickness = within(puffs.thickness);
+      for (int y = 0; y < puffs.size; ++y)
+        for (int x = 0; x < puffs.size; ++x) {
+          const float off = glm::length(glm::vec2(x, y) + 0.5F - middle) / radius;
+          if (off >= 1) continue;
+          const float half = thickness * std::sqrt(1 - off * off);
+          const float passed = puffs.solid && puff == 0 ? 0 : std::exp(-puffs.density * half);
+          all.push_back({{x, y, view}, at - half, at + half, passed});
+        }
+    }
+  return all;
 }
 
 double curveAt(const Curve& curve, double depth, bool exponential) {

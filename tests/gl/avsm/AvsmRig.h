@@ -24,6 +24,16 @@ struct Captured {
   float entry = 0, exit = 0, transmittance = 1;
 };
 
+/// Balls of smoke in every view: radii as parts of the map, places and thicknesses in depth, of each the least and how
+/// much more at most.
+struct Puffs {
+  int size = 64, views = 1, count = 10;
+  glm::vec2 radius{0.1F, 0.15F}, depth{0, 1}, thickness{0.05F, 0.1F};
+  float density = 12; ///< optical depth a unit of depth
+  bool solid = true;  ///< the first of each view lets nothing through
+};
+std::vector<Captured> segmentsOf(const Puffs& puffs, unsigned seed);
+
 /// Depth and transmittance of the nodes of a texel's curve.
 using Curve = std::vector<glm::dvec2>;
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
-#include <random>
 
 using namespace tyndall;
 
@@ -16,26 +15,14 @@ constexpr int kSize = 64;
 
 // Puffs of smoke in every view, between two depths of its range.
 std::vector<tests::Captured> puffs(int views, unsigned seed, float low, float high) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> uniform(0, 1);
   const float range = high - low;
-  std::vector<tests::Captured> all;
-  for (int view = 0; view < views; ++view)
-    for (int puff = 0; puff < 10; ++puff) {
-      glm::vec2 middle; // in this order, whatever the compiler
-      middle.x = kSize * uniform(random);
-      middle.y = kSize * uniform(random);
-      const float radius = kSize * (0.1F + 0.15F * uniform(random)), at = low + range * uniform(random);
-      const float thickness = range * (0.05F + 0.1F * uniform(random));
-      for (int y = 0; y < kSize; ++y)
-        for (int x = 0; x < kSize; ++x) {
-          const float off = glm::length(glm::vec2(x, y) + 0.5F - middle) / radius;
-          if (off >= 1) continue;
-          const float half = thickness * std::sqrt(1 - off * off);
-          all.push_back({{x, y, view}, at - half, at + half, puff == 0 ? 0 : std::exp(-12 * half / range)});
-        }
-    }
-  return all;
+  tests::Puffs balls;
+  balls.size = kSize;
+  balls.views = views;
+  balls.depth = {low, range};
+  balls.thickness = range * glm::vec2(0.05F, 0.1F);
+  balls.density = 12 / range;
+  return tests::segmentsOf(balls, seed);
 }
 
 double errorOf(const reference::Image& image, const reference::Image& truth) {

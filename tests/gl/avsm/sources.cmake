@@ -6,6 +6,7 @@ set(TYNDALL_GL_AVSM_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/AvsmShaderTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/CaptureTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/CurveTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/EyeCurvesFrameTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EyeCurvesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FragmentTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ParticleTest.cpp
