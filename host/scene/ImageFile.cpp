@@ -3,13 +3,15 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfInputFile.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <half.h>
+#include <limits>
 #include <list>
 #include <png.h>
 #include <scene/Error.h>
@@ -21,7 +23,9 @@ namespace host {
 
 namespace {
 
-constexpr std::uint64_t kMaxExrBytes = 4096ULL << 20; // decoded
+constexpr std::uint64_t kMaxExrBytes = 4096ULL << 20;  // decoded
+constexpr std::uint64_t kMaxExrLineBytes = 4ULL << 20; // decoded: OpenEXR keeps up to 256 lines at a time
+constexpr int kLinesAtATime = 256;
 constexpr std::uint64_t kMaxPngBytes = 4096ULL << 20;
 constexpr std::size_t kMaxChannelName = 255; // of the EXR format
 
@@ -160,33 +164,56 @@ void writeExr(const std::filesystem::path& file, const Image& image, Precision p
   });
 }
 
+namespace {
+
+/// The size and the channels that a header tells, still without values, or Error if they are against a rule. OpenEXR
+/// itself takes memory by whatever a header says as soon as its pixels are opened.
+Image checkedHeader(const std::filesystem::path& file, const Imf::Header& header) {
+  const Imath::Box2i window = header.dataWindow();
+  const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+  const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+  constexpr std::int64_t kMost = std::numeric_limits<int>::max();
+  Image image;
+  image.width = static_cast<int>(std::min(width, kMost));
+  image.height = static_cast<int>(std::min(height, kMost));
+  checkSize(file, image.width, image.height);
+  const Imf::ChannelList& channels = header.channels();
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+    if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1) {
+      throw Error(std::string("channel ") + channel.name() + " is subsampled");
+    }
+    image.channels.push_back({channel.name(), {}});
+  }
+  const std::uint64_t line = image.channels.size() * pixelCount(image.width, 1) * sizeof(float);
+  if (line > kMaxExrLineBytes || line * static_cast<std::uint64_t>(image.height) > kMaxExrBytes) {
+    throw Error("its channels take more than " + std::to_string(kMaxExrLineBytes >> 20) + " MiB a line or " +
+                std::to_string(kMaxExrBytes >> 20) + " MiB in all");
+  }
+  return image;
+}
+
+} // namespace
+
 Image readExr(const std::filesystem::path& file) {
   Image image;
   try {
-    Imf::InputFile input(file.c_str());
-    const Imath::Box2i window = input.header().dataWindow();
-    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
-    const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
-    if (width > tyndall::kMaxImageSize || height > tyndall::kMaxImageSize) throw Error("too large");
-    image.width = static_cast<int>(width);
-    image.height = static_cast<int>(height);
-    checkSize(file, image.width, image.height);
-    const Imf::ChannelList& channels = input.header().channels();
-    for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
-      if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1) {
-        throw Error(std::string("channel ") + channel.name() + " is subsampled");
-      }
-      if ((image.channels.size() + 1) * pixelCount(image.width, image.height) * sizeof(float) > kMaxExrBytes) {
-        throw Error("its channels take more than " + std::to_string(kMaxExrBytes >> 20) + " MiB");
-      }
-      image.channels.push_back({channel.name(), std::vector<float>(pixelCount(image.width, image.height))});
-    }
+    Imf::MultiPartInputFile parts(file.c_str());
+    image = checkedHeader(file, parts.header(0));
+    const Imath::Box2i window = parts.header(0).dataWindow();
+    Imf::InputPart input(parts, 0);
     Imf::FrameBuffer frameBuffer;
     for (Channel& channel : image.channels) {
+      channel.values.reserve(pixelCount(image.width, image.height));
       frameBuffer.insert(channel.name, sliceOf(channel.values.data(), window.min, image.width, image.height));
     }
     input.setFrameBuffer(frameBuffer);
-    input.readPixels(window.min.y, window.max.y);
+    // Memory is touched only for lines that the file does hold.
+    for (int begin = 0; begin < image.height; begin += kLinesAtATime) {
+      const int end = std::min(begin + kLinesAtATime, image.height);
+      for (Channel& channel : image.channels)
+        channel.values.resize(pixelCount(image.width, end));
+      input.readPixels(window.min.y + begin, window.min.y + end - 1);
+    }
   } catch (const std::exception& error) {
     refuse(file, std::string("cannot be read as an EXR: ") + error.what());
   }

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <scene/Error.h>
 #include <scene/ImageFile.h>
 
@@ -144,6 +145,45 @@ TEST_CASE("A file that is no EXR is refused by name", "[scene][image]") {
     writeBytes(folder / "cut.exr", {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)});
     CHECK_THROWS_AS(host::readExr(folder / "cut.exr"), host::Error);
   }
+}
+
+TEST_CASE("An EXR's header is judged before memory is taken by it", "[scene][image]") {
+  using Catch::Contains;
+  const TemporaryFolder folder;
+  host::writeExr(folder / "a.exr", sample());
+  const std::vector<std::uint8_t> whole = readBytes(folder / "a.exr");
+  const std::string name = "dataWindow";
+  const auto at = std::search(whole.begin(), whole.end(), name.begin(), name.end());
+  REQUIRE(at != whole.end());
+  const std::ptrdiff_t corner = at - whole.begin() + 11 + 6 + 4 + 8; // name, "box2i", its size, the other corner
+  struct Corner {
+    std::int32_t x, y;
+  };
+  // OpenEXR alone would take 64 GiB for lines of the last.
+  for (const Corner claimed : {Corner{16384, 1}, {1 << 23, 1}, {1 << 29, 1}}) {
+    std::vector<std::uint8_t> bytes = whole;
+    std::memcpy(bytes.data() + corner, &claimed, sizeof(claimed));
+    writeBytes(folder / "huge.exr", bytes);
+    INFO(claimed.x << " x " << claimed.y);
+    CHECK_THAT(refusal([&] { host::readExr(folder / "huge.exr"); }), Contains("its sides must be 1 to 16384"));
+  }
+}
+
+TEST_CASE("An EXR of more lines than are read at a time gives back every bit", "[scene][image]") {
+  const TemporaryFolder folder;
+  host::Image image;
+  image.width = 5;
+  image.height = 600;
+  for (const char* name : {"A", "B"}) {
+    std::vector<float> values(3000);
+    std::iota(values.begin(), values.end(), name[0]);
+    image.channels.push_back({name, values});
+  }
+  host::writeExr(folder / "a.exr", image);
+  const host::Image read = host::readExr(folder / "a.exr");
+  REQUIRE(read.channels.size() == 2);
+  CHECK(read.channels[0].values == image.channels[0].values);
+  CHECK(read.channels[1].values == image.channels[1].values);
 }
 
 TEST_CASE("A PNG holds the bytes, top row first", "[scene][image]") {
