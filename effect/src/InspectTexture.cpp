@@ -35,6 +35,24 @@ bool isFixedPoint(Int format) {
          f == DEPTH24_STENCIL8;
 }
 
+bool isOneChannel(Int format) {
+  const auto f = static_cast<Enum>(format);
+  return f == R8 || f == R16 || f == R16F || f == R32F;
+}
+
+// Contexts that know no other way say by an error that it is not.
+bool bindIfOf(const Functions& gl, Uint name, Enum target) {
+  Int its = 0;
+  if (gl.GetTextureParameteriv) {
+    gl.GetTextureParameteriv(name, TEXTURE_TARGET, &its);
+    if (static_cast<Enum>(its) == target) gl.BindTexture(target, name);
+    return static_cast<Enum>(its) == target;
+  }
+  OwnErrors errors(gl);
+  gl.BindTexture(target, name);
+  return errors.take() == NO_ERROR;
+}
+
 float largestValue(Int format) {
   switch (static_cast<Enum>(format)) {
   case RGB32F:
@@ -102,24 +120,6 @@ bool isTint(Int format) {
   }
 }
 
-bool isOcclusion(Int format) {
-  const auto f = static_cast<Enum>(format);
-  return f == R8 || f == R16 || f == R16F || f == R32F;
-}
-
-// Binds a texture to the active unit, if it is of the target. Contexts that know no other way say so by an error.
-bool bindIfOf(const Functions& gl, Uint name, Enum target) {
-  Int its = 0;
-  if (gl.GetTextureParameteriv) {
-    gl.GetTextureParameteriv(name, TEXTURE_TARGET, &its);
-    if (static_cast<Enum>(its) == target) gl.BindTexture(target, name);
-    return static_cast<Enum>(its) == target;
-  }
-  OwnErrors errors(gl);
-  gl.BindTexture(target, name);
-  return errors.take() == NO_ERROR;
-}
-
 // Of the bound texture; of a cube map's, of one face.
 TextureInfo levelOf(const Functions& gl, Enum target) {
   TextureInfo info;
@@ -171,7 +171,7 @@ Status checkFormat(const std::string& field, Uint name, Use use, Int format) {
     return invalid(field, name, "must have a float colour format (RGBA16F, RGBA32F, R11F_G11F_B10F, RGB16F, RGB32F)");
   if (use == Use::Tint && !isTint(format))
     return invalid(field, name, "must have an RGB or RGBA format of 8 bits or floats");
-  if (use == Use::Occlusion && !isOcclusion(format))
+  if (use == Use::Occlusion && !isOneChannel(format))
     return invalid(field, name, "must have the format R8, R16, R16F or R32F");
   if (use == Use::Curves && static_cast<Enum>(format) != RGBA32UI)
     return invalid(field, name, "must be what Avsm::curves() gave: RGBA32UI");

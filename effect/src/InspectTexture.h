@@ -26,6 +26,12 @@ Status invalid(const std::string& field, gl::Uint name, const std::string& rule)
 
 bool isFloatColour(gl::Int format);
 
+/// R8, R16, R16F or R32F: one number a texel, of what is no depth.
+bool isOneChannel(gl::Int format);
+
+/// Binds a texture to the active unit, if it is of the target.
+bool bindIfOf(const gl::Functions& gl, gl::Uint name, gl::Enum target);
+
 /// Integers that stand for 0 to 1.
 bool isFixedPoint(gl::Int format);
 

@@ -7,14 +7,10 @@
 #include "lib/avsmCurve.glsl"
 #include "lib/avsmImage.glsl"
 #include "lib/avsmInsert.glsl"
+#include "lib/avsmRay.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-struct View {
-  vec4 near[3], far[3]; // of a texel's ray: the points on the two planes, homogeneous, by x, y and 1
-  vec4 rows[3];         // of texelFromWorld: x, y and the weight, positive before the light
-  vec4 behindLight;     // x: depth, before which there is no light
-};
 layout(std140, binding = 0) uniform ParticlesBlock {
   View views[6];
 };
@@ -47,18 +43,6 @@ bool touches(vec4 sphere) {
   bool before = true;
   for (int i = 0; i < 5; ++i) before = before && dot(planes[i].xyz, sphere.xyz) + planes[i].w >= -sphere.w;
   return before;
-}
-
-// A texel's ray, by depth: from the near plane at 0 to the far plane at 1.
-struct Ray {
-  vec3 start, along;
-  float behindLight;
-};
-
-Ray rayOf(View view, vec2 at) {
-  vec4 near = view.near[0] * at.x + view.near[1] * at.y + view.near[2], far = view.far[0] * at.x + view.far[1] * at.y + view.far[2];
-  vec3 start = near.xyz / near.w;
-  return Ray(start, far.xyz / far.w - start, view.behindLight.x);
 }
 
 // |start + s along - centre|^2 = radius^2, from the ray's nearest point to the centre on, where it is halfChord to either side in depth s. What

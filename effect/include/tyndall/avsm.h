@@ -10,17 +10,23 @@
 //
 //     avsm->beginStreaming();               // curves through which all light passes
 //     avsm->drawParticles(light, smoke);    // spheres from a buffer of the engine's; any number of calls
-//     avsm->bindCurves(0);                  // and, or instead, the engine draws: fragments call tyndallInsert() (glsl
-//     avsmInsert) avsm->resolve(); frame.lights[0].curves = avsm->curves();
+//     avsm->bindCurves(0);                  // and, or instead, the engine draws: each fragment calls tyndallInsert()
+//     avsm->resolve();                      // (glsl avsmInsert)
+//     frame.lights[0].curves = avsm->curves();
+//
+// Either way fog and smoke whose density a 3D texture holds need no particles:
+//
+//     avsm->drawVolumes(light, volumes);    // boxes and spheres, after begin() or beginStreaming()
 //
 // The map has the light's shadow views, at a size of its own; engines that draw into it with glClipControl's
 // GL_UPPER_LEFT give its views matrices whose row y is negated, as for a shadow map. Depth in it is linear along the
 // view, 0 at its near and 1 at its far plane. All functions need the GL context current that create() saw: OpenGL 4.3
-// core or later. A call whose status is not Ok leaves curves and lists as they
-// were. GL errors of the engine's that it
-// has not asked for are pending still. With StateMode::Leave resolve(), beginStreaming() and drawParticles() leave GL
-// as said at Effect but for the viewport, which they do not touch, and storage buffer bindings 0 to 2 and image unit 0
-// empty; these and begin() leave the generic binding of storage buffers 0.
+// core or later. A call whose status is not Ok leaves curves and lists as they were. GL errors of the engine's that it
+// has not asked for are pending still. With StateMode::Leave resolve(),
+// beginStreaming(), drawParticles() and drawVolumes() leave GL as said at Effect but for the viewport, which they do
+// not touch, storage buffer bindings 0 to 2 and image unit 0 empty but for the lists where begin() bound them, and
+// GL_TEXTURE_3D of texture units 0 and 1 without a texture; these and begin() leave the generic binding of storage
+// buffers 0.
 #pragma once
 
 #include <tyndall/tyndall.h>
@@ -71,6 +77,22 @@ struct AvsmParticles {
   Vec3 origin = {0, 0, 0};   ///< world position that the centres are relative to: near them, floats are exact
 };
 
+/// A part of space with fog or smoke in it. Its extinction is `extinction` times its density times how far it has faded
+/// in. Volumes overlap freely: what they let through multiplies.
+struct AvsmVolume {
+  enum class Shape { Box, Sphere };
+  Shape shape = Shape::Box;
+  Mat4 worldFromVolume = kIdentity; ///< places the cube, or the unit sphere, from -1 to 1: affine, invertible
+  double extinction = 0;            ///< where density is 1, 1/world unit, finite and >= 0
+  /// Share of the half extent, of a sphere of the radius, over which density rises from 0 at the border, by Hermite's
+  /// cubic: 0 to 1; 0: a hard edge.
+  double fade = 0;
+  std::uint32_t density = 0; ///< GL_TEXTURE_3D, R8, R16, R16F or R32F, level 0, of any size, that fills the cube,
+                             ///< trilinear; negative and NaN as 0. 0: 1 everywhere
+  std::uint64_t version = 0; ///< of what it holds: the bricks that are empty are looked for again unless it is as at
+                             ///< the last call that this texture came with, and not 0
+};
+
 struct AvsmResult;
 
 class Avsm {
@@ -96,6 +118,13 @@ public:
   /// a field that breaks its rule, a light without shadow views or with more than the map has layers, and a view for
   /// which avsmDepth() fails. GL state on return is as AvsmConfig::state says.
   Status drawParticles(const Light& light, const AvsmParticles& particles);
+
+  /// After begin() or beginStreaming(): captures, or inserts in their order, at most 8 volumes, seen through the
+  /// light's shadow views, each in a layer's place. Segments follow their optical depth along each texel's ray to 0.001
+  /// of the transmittance. A view's texels that a volume cannot reach cost nothing. Nothing is drawn unless the status
+  /// is Ok; InvalidFrame as for drawParticles(). Lists stay bound where begin() bound them. GL state on return is as
+  /// AvsmConfig::state says.
+  Status drawVolumes(const Light& light, const std::vector<AvsmVolume>& volumes);
 
   /// After beginStreaming(): binds as draw framebuffer one whose colour attachments are the curves of a layer, for
   /// shaders that include avsmInsert and call tyndallInsert(), which needs GL_EXT_shader_framebuffer_fetch. It stays

@@ -1,6 +1,5 @@
 #include "tyndall/avsm.h"
 
-#include "CheckValues.h"
 #include "ContextWatch.h"
 #include "LoadFunctions.h"
 #include "PassRecorder.h"
@@ -9,13 +8,11 @@
 #include "avsm/Lists.h"
 #include "avsm/Particles.h"
 #include "avsm/StorageGuard.h"
+#include "avsm/Volumes.h"
 #include "gl/OwnErrors.h"
 #include "gl/ProgramCache.h"
 #include "gl/ShaderSources.h"
 #include "gl/StateGuard.h"
-#include "optics/EyeLight.h"
-#include "optics/Jitter.h"
-#include "optics/Matrices.h"
 
 #include <algorithm>
 #include <utility>
@@ -30,6 +27,11 @@
 // Or as segments come:
 //
 //   [avsmEmpty] --> curves --> [avsmParticles] or the engine's shaders, avsmInsert.glsl --> curves
+//
+// Volumes, into either:
+//
+//   density --> [avsmRanges], a level at a time, unless it is as it was --> ranges
+//   density, ranges --> [avsmVolumes], for each view that sees it --> lists, or curves
 //
 namespace tyndall {
 
@@ -128,19 +130,24 @@ struct Avsm::State {
   std::unique_ptr<avsm::Lists> lists;
   gl::Texture curves;
   gl::Buffer particlesBlock;
+  avsm::Volumes volumes{gl};
   gl::Framebuffer framebuffer; // of a layer's curves, once asked for
   std::uint64_t version = 0;
   enum class Began { Nothing, Capture, Streaming } began = Began::Nothing;
-  bool streamed = false;  // what was resolved last
-  bool mayBeEmpty = true; // the newest frame that is known was, or none is known
-  bool holds = false;     // the curves may hold anything
+  std::uint32_t firstBinding = 0; // of lists, while capturing
+  bool recording = false;         // passes since begin()
+  bool streamed = false;          // what was resolved last
+  bool mayBeEmpty = true;         // the newest frame that is known was, or none is known
+  bool holds = false;             // the curves may hold anything
 
   Status checkContext(const char* function);
-  Status begin(std::uint32_t firstBinding);
+  Status begin(std::uint32_t binding);
   Status resolve();
   Status beginStreaming();
   Status drawParticles(const Light& light, const AvsmParticles& particles);
+  Status drawVolumes(const Light& light, const std::vector<AvsmVolume>& volumes);
   Status bindCurves(int layer);
+  void record();
   void makeCurves();
   Status makeObjects();
   Status allocate();
@@ -148,9 +155,15 @@ struct Avsm::State {
   Status build(const Pass& pass);
   Status attachCurves(int layer);
   using Uniforms = std::vector<std::pair<const char*, gl::Int>>;
-  void run(const Pass& pass, const Uniforms& uniforms = {}, int layers = 0);
+  void run(const Pass& pass, const Uniforms& uniforms, const avsm::Groups& groups);
+  void runOverMap(const Pass& pass, const Uniforms& uniforms = {}, int layers = 0);
   void insertParticles(const AvsmParticles& particles, int views);
   Pass emptyPass() const { return {"empty", "passes/avsmEmpty.comp", {}}; }
+  Pass volumesPass() const {
+    return {"volumes", "passes/avsmVolumes.comp",
+            avsm::volumeDefinitions(config.nodes, config.packed, began == Began::Streaming)};
+  }
+  Pass rangesPass(bool finest) const { return {"ranges", "passes/avsmRanges.comp", {{"FINEST", finest ? 1 : 0}}}; }
   Pass particlesPass() const { return {"particles", "passes/avsmParticles.comp", curveDefinitions()}; }
   std::uint64_t curveBytes() const {
     return std::uint64_t{16} * static_cast<std::uint64_t>(config.size) * static_cast<std::uint64_t>(config.size) *
@@ -196,6 +209,14 @@ Status Avsm::drawParticles(const Light& light, const AvsmParticles& particles) {
   return state_->watch.finish(state_->drawParticles(light, particles));
 }
 
+Status Avsm::drawVolumes(const Light& light, const std::vector<AvsmVolume>& volumes) {
+  if (Status s = state_->checkContext("Avsm::drawVolumes"); !s) return s;
+  const Status status = state_->drawVolumes(light, volumes);
+  if (state_->config.state == StateMode::Leave && state_->began == State::Began::Capture)
+    state_->lists->bind(state_->firstBinding, false);
+  return state_->watch.finish(status);
+}
+
 Status Avsm::bindCurves(int layer) {
   if (Status s = state_->watch.check(); !s) return s;
   return state_->watch.finish(state_->bindCurves(layer));
@@ -215,11 +236,11 @@ AvsmStatistics Avsm::statistics() {
 
 // ---------------------------------------------------------------------------------------------------------------------
 
-Status Avsm::State::begin(std::uint32_t firstBinding) {
+Status Avsm::State::begin(std::uint32_t binding) {
   gl::Int bindings = 0;
   gl.GetIntegerv(gl::MAX_SHADER_STORAGE_BUFFER_BINDINGS, &bindings);
-  if (bindings < 2 || firstBinding > static_cast<std::uint32_t>(bindings) - 2)
-    return {StatusCode::InvalidConfig, "firstBinding is " + std::to_string(firstBinding) +
+  if (bindings < 2 || binding > static_cast<std::uint32_t>(bindings) - 2)
+    return {StatusCode::InvalidConfig, "firstBinding is " + std::to_string(binding) +
                                            ": this and the next must be below this context's " +
                                            std::to_string(bindings) + " storage buffer bindings"};
   const avsm::BufferGuard guard(gl, config.state);
@@ -227,8 +248,10 @@ Status Avsm::State::begin(std::uint32_t firstBinding) {
   if (Status s = lists->makeRoom(); !s) return s;
   gl.MemoryBarrier(gl::BUFFER_UPDATE_BARRIER_BIT); // shaders wrote what is emptied
   lists->empty();
-  lists->bind(firstBinding, false);
+  lists->bind(binding, false);
+  firstBinding = binding;
   began = State::Began::Capture;
+  recording = false;
   return {};
 }
 
@@ -249,7 +272,7 @@ Status Avsm::State::resolve() {
   streamed = false;
   began = State::Began::Nothing;
   ++version;
-  recorder.beginFrame();
+  record();
   gl.MemoryBarrier(gl::SHADER_STORAGE_BARRIER_BIT | gl::BUFFER_UPDATE_BARRIER_BIT);
   lists->send();
   // Scenes without smoke pay a wait instead of passes; the others do not wait.
@@ -269,7 +292,7 @@ Status Avsm::State::beginStreaming() {
   recorder.beginFrame();
   gl.BindImageTexture(0, curves.name(), 0, 1, 0, gl::WRITE_ONLY, gl::RGBA32UI);
   constexpr gl::Int kPackedOne = -1, kOne = 0x3F800000; // depth and transmittance 1, in bits
-  run(emptyPass(), {{"clearWord", config.packed ? kPackedOne : kOne}});
+  runOverMap(emptyPass(), {{"clearWord", config.packed ? kPackedOne : kOne}});
   holds = true;
   began = State::Began::Streaming;
   return {};
@@ -287,6 +310,34 @@ Status Avsm::State::drawParticles(const Light& light, const AvsmParticles& parti
   gl.BindImageTexture(0, curves.name(), 0, 1, 0, gl::READ_WRITE, gl::RGBA32UI);
   gl.MemoryBarrier(kBarriers);
   insertParticles(particles, static_cast<int>(light.shadow.views.size()));
+  return {};
+}
+
+// Of what was captured: from the first pass since begin() on.
+void Avsm::State::record() {
+  if (!recording) recorder.beginFrame();
+  recording = true;
+}
+
+Status Avsm::State::drawVolumes(const Light& light, const std::vector<AvsmVolume>& given) {
+  if (began == Began::Nothing)
+    return {StatusCode::InvalidFrame, "Avsm::drawVolumes needs a begin() or beginStreaming() before it"};
+  gl::StateGuard guard(gl, config.state);
+  guard.saveUnits(avsm::kVolumeUnits, {});
+  const avsm::StorageGuard storageGuard(gl, config.state);
+  const avsm::GridGuard gridGuard(gl, config.state);
+  if (Status s = volumes.check(light, given, config.layers); !s) return s;
+  for (const Pass& pass : {rangesPass(true), rangesPass(false), volumesPass()})
+    if (Status s = build(pass); !s) return s;
+  if (Status s = volumes.prepare(light, given, config.size); !s) return s;
+  if (began == Began::Capture) record();
+  gl.MemoryBarrier(kBarriers);
+  volumes.makeRanges([&](int level, const avsm::Groups& groups) {
+    run(rangesPass(level == 0), {{"sourceLevel", level - 1}}, groups);
+  });
+  if (began == Began::Capture) lists->bind(0, false);
+  if (began == Began::Streaming) gl.BindImageTexture(0, curves.name(), 0, 1, 0, gl::READ_WRITE, gl::RGBA32UI);
+  volumes.draw([&](const avsm::Groups& groups) { run(volumesPass(), {}, groups); });
   return {};
 }
 
@@ -322,6 +373,7 @@ Status Avsm::State::makeObjects() {
   const gl::StateGuard guard(gl, StateMode::Restore);
   const avsm::BufferGuard bufferGuard(gl, StateMode::Restore);
   watch.mark();
+  volumes.makeObjects();
   return allocate();
 }
 
@@ -347,16 +399,20 @@ Status Avsm::State::build(const Pass& pass) {
   return {StatusCode::ShaderError, "a shader did not build: " + programs.error()};
 }
 
-void Avsm::State::run(const Pass& pass, const Uniforms& uniforms, int layers) {
+void Avsm::State::run(const Pass& pass, const Uniforms& uniforms, const avsm::Groups& groups) {
   const gl::Uint program = programs.useCompute(pass.file, pass.definitions);
   for (const auto& [uniform, value] : uniforms)
     gl.Uniform1i(gl.GetUniformLocation(program, uniform), value);
   recorder.run(pass.name, [&] {
-    const auto groups = static_cast<gl::Uint>(unitsFor(config.size, kGroup));
-    gl.DispatchCompute(groups, groups, static_cast<gl::Uint>(layers > 0 ? layers : config.layers));
+    gl.DispatchCompute(groups[0], groups[1], groups[2]);
     gl.MemoryBarrier(kBarriers);
     return true;
   });
+}
+
+void Avsm::State::runOverMap(const Pass& pass, const Uniforms& uniforms, int layers) {
+  const auto groups = static_cast<gl::Uint>(unitsFor(config.size, kGroup));
+  run(pass, uniforms, {groups, groups, static_cast<gl::Uint>(layers > 0 ? layers : config.layers)});
 }
 
 // Of calls that use programs.
@@ -384,7 +440,7 @@ void Avsm::State::insertParticles(const AvsmParticles& particles, int views) {
     const Uniforms uniforms = {{"firstFloat", static_cast<gl::Int>((at - start) / 4)},
                                {"stride", static_cast<gl::Int>(particles.stride / 4)},
                                {"count", static_cast<gl::Int>(count)}};
-    run(particlesPass(), uniforms, views);
+    runOverMap(particlesPass(), uniforms, views);
     first += count;
   }
 }
@@ -393,37 +449,10 @@ void Avsm::State::makeCurves() {
   lists->bind(0, true);
   gl.BindImageTexture(0, curves.name(), 0, 1, 0, gl::WRITE_ONLY, gl::RGBA32UI);
   for (const Pass& pass : passesOf(config))
-    run(pass);
+    runOverMap(pass);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
-
-Status avsmDepth(const Light& light, int view, std::array<double, 4>& depth) {
-  const auto refuse = [&](const std::string& rule) {
-    return Status{StatusCode::InvalidFrame, "view is " + std::to_string(view) + ": " + rule};
-  };
-  if (view < 0 || view >= static_cast<int>(light.shadow.views.size()))
-    return refuse("the light has " + std::to_string(light.shadow.views.size()) + " shadow views");
-  const bool directional = light.kind == LightKind::Directional;
-  const glm::dvec3 from = optics::toGlm(directional ? light.direction : light.position);
-  if (!(glm::length(from) < kInfinity)) return refuse("the light's direction or position must be finite");
-  if (directional && from == glm::dvec3(0)) return refuse("the light's direction must have a length");
-  const glm::dmat4 matrix = optics::toGlm(light.shadow.views[static_cast<std::size_t>(view)].clipFromWorld);
-  if (!optics::isInvertible(matrix)) return refuse("its matrix must be invertible");
-  const optics::DepthPlane plane = optics::linearDepth(light, view);
-  if (!plane.exists) return refuse("its far plane must not be at infinity");
-  depth = {plane.coefficients.x, plane.coefficients.y, plane.coefficients.z, plane.coefficients.w};
-  return {};
-}
-
-Status eyeLight(const Camera& camera, const Rectangle& viewport, double nearDistance, double farDistance,
-                Light& light) {
-  if (Status s = checkViewport(viewport); !s) return s;
-  if (Status s = checkCamera(camera); !s) return s;
-  if (Status s = checkEyePlanes(camera, nearDistance, farDistance); !s) return s;
-  light = optics::eyeLight(optics::steady(camera, viewport), nearDistance, farDistance);
-  return {};
-}
 
 const char* avsmCaptureSource() {
   static const std::string text = shaderSource("public/avsmCapture.glsl");

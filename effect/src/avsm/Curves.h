@@ -11,4 +11,11 @@ inline gl::Definitions curveDefinitions(int nodes, bool packed) {
   return {{"TYNDALL_CURVE_NODES", nodes}, {"TYNDALL_CURVE_PACKED", packed ? 1 : 0}};
 }
 
+/// Of passes/avsmVolumes.comp, which captures, or inserts into curves.
+inline gl::Definitions volumeDefinitions(int nodes, bool packed, bool streamed) {
+  gl::Definitions definitions = streamed ? curveDefinitions(nodes, packed) : gl::Definitions{};
+  definitions.emplace_back("STREAMED", streamed ? 1 : 0);
+  return definitions;
+}
+
 } // namespace tyndall::avsm

@@ -48,7 +48,7 @@ ParticleView::Row rowOf(const glm::dvec4& v) {
 
 } // namespace
 
-Status checkParticles(const gl::Functions& gl, const Light& light, const AvsmParticles& particles, int layers) {
+Status checkViews(const Light& light, int layers) {
   const std::size_t views = light.shadow.views.size();
   if (views < 1 || views > static_cast<std::size_t>(layers))
     return invalid("light.shadow.views.size()", std::to_string(views),
@@ -57,6 +57,11 @@ Status checkParticles(const gl::Functions& gl, const Light& light, const AvsmPar
     std::array<double, 4> depth{};
     if (Status s = avsmDepth(light, static_cast<int>(i), depth); !s) return s;
   }
+  return {};
+}
+
+Status checkParticles(const gl::Functions& gl, const Light& light, const AvsmParticles& particles, int layers) {
+  if (Status s = checkViews(light, layers); !s) return s;
   return particles.count == 0 ? Status{} : checkBuffer(gl, particles);
 }
 

@@ -21,6 +21,9 @@ using ParticlesBlock = std::array<ParticleView, kMaxShadowViews>;
 inline constexpr std::uint32_t kMostParticles = 4096;
 inline constexpr std::uint32_t kParticleBytes = 20;
 
+/// Of a light whose views are drawn into a map of so many layers.
+Status checkViews(const Light& light, int layers);
+
 /// Every rule of the arguments of Avsm::drawParticles. Binds to the generic storage target.
 Status checkParticles(const gl::Functions& gl, const Light& light, const AvsmParticles& particles, int layers);
 

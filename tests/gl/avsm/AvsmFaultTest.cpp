@@ -21,7 +21,7 @@ constexpr int kSize = 16, kNodes = 4, kMostCalls = 200;
 
 using Bits = std::vector<std::uint32_t>;
 
-// An engine with smoke to capture and to stream.
+// An engine with smoke and fog to capture and to stream.
 struct Engine {
   FaultyContext context;
   AvsmConfig config = tests::configOf(CurveReduction::WholeCurve, kSize, kNodes, true);
@@ -30,6 +30,8 @@ struct Engine {
   AvsmParticles particles;
   Light light;
   std::vector<tests::Captured> segments;
+  host::GlTexture density = host::makeTexture();
+  std::vector<AvsmVolume> volumes{2};
 
   Engine() {
     config.loader = context.loader();
@@ -42,6 +44,14 @@ struct Engine {
     particles.count = 2;
     light.direction = {0, 0, -1};
     light.shadow.views = {{tests::toMat4(glm::scale(glm::dmat4(1), glm::dvec3(1, 1, -1))), 0}};
+    gl().BindTexture(GL_TEXTURE_3D, density.name());
+    const std::vector<float> values = {0, 1, 0.5F, 0, 0.25F, 1, 0, 2};
+    gl().TexImage3D(GL_TEXTURE_3D, 0, GL_R32F, 2, 2, 2, 0, GL_RED, GL_FLOAT, values.data());
+    gl().BindTexture(GL_TEXTURE_3D, 0);
+    volumes[0].density = density.name();
+    volumes[0].extinction = 1;
+    volumes[1].shape = AvsmVolume::Shape::Sphere;
+    volumes[1].extinction = 0.5;
     for (int i = 0; i < 40; ++i)
       segments.push_back(
           {{i % 8, i % 5, 0}, 0.01F * static_cast<float>(i), 0.02F * static_cast<float>(i) + 0.1F, 0.7F});
@@ -78,8 +88,9 @@ const std::vector<Step>& capturing() {
   static const std::vector<Step> all = {
       {"create", nothing, [](Engine& e) { return e.create(); }, false},
       {"begin", nothing, [](Engine& e) { return e.avsm->begin(2); }, true},
-      {"resolve", [](Engine& e) { tests::captureInto(*e.avsm, e.segments); },
-       [](Engine& e) { return e.avsm->resolve(); }, false},
+      {"drawVolumes", [](Engine& e) { tests::captureInto(*e.avsm, e.segments); },
+       [](Engine& e) { return e.avsm->drawVolumes(e.light, e.volumes); }, true},
+      {"resolve", nothing, [](Engine& e) { return e.avsm->resolve(); }, false},
   };
   return all;
 }
@@ -89,6 +100,7 @@ const std::vector<Step>& streaming() {
       {"create", nothing, [](Engine& e) { return e.create(); }, false},
       {"beginStreaming", nothing, [](Engine& e) { return e.avsm->beginStreaming(); }, false},
       {"drawParticles", nothing, [](Engine& e) { return e.avsm->drawParticles(e.light, e.particles); }, true},
+      {"drawVolumes", nothing, [](Engine& e) { return e.avsm->drawVolumes(e.light, e.volumes); }, true},
       {"resolve", nothing, [](Engine& e) { return e.avsm->resolve(); }, true},
   };
   return all;

@@ -1,8 +1,10 @@
 #include "AvsmRig.h"
 #include "support/Catch.h"
+#include "support/EffectRig.h"
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
 namespace tests {
@@ -136,6 +138,26 @@ std::vector<Captured> segmentsOf(const Puffs& puffs, unsigned seed) {
     }
   return all;
 }
+
+tyndall::Light parallelLight() {
+  tyndall::Light light;
+  light.direction = {0, 0, -1};
+  light.shadow.views = {{toMat4(glm::scale(glm::dmat4(1), glm::dvec3(1, 1, -1))), 0}};
+  return light;
+}
+
+tyndall::Light spotLight(bool reversed) {
+  tyndall::Light light;
+  light.kind = tyndall::LightKind::Spot;
+  light.position = {0, 0, 2};
+  const glm::dmat4 view = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -2));
+  glm::dmat4 projection = glm::perspective(1.0, 1.0, kSpotNear, kSpotFar);
+  if (reversed) projection = glm::scale(glm::dmat4(1), glm::dvec3(1, 1, -1)) * projection;
+  light.shadow.views = {{toMat4(projection * view), 0}};
+  return light;
+}
+
+double depthOfSpot() { return -kSpotNear / (kSpotFar - kSpotNear); }
 
 double curveAt(const Curve& curve, double depth, bool exponential) {
   glm::dvec2 before(0, 1);

@@ -34,6 +34,14 @@ struct Puffs {
 };
 std::vector<Captured> segmentsOf(const Puffs& puffs, unsigned seed);
 
+/// Light along -z through the cube from -1 to 1, so that depth is (1 - z) / 2.
+tyndall::Light parallelLight();
+
+/// A spot at (0, 0, 2) that shines along -z.
+constexpr double kSpotNear = 0.5, kSpotFar = 8;
+tyndall::Light spotLight(bool reversed);
+double depthOfSpot(); ///< of the spot itself, before its near plane
+
 /// Depth and transmittance of the nodes of a texel's curve.
 using Curve = std::vector<glm::dvec2>;
 

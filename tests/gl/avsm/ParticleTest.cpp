@@ -16,6 +16,10 @@ using tests::AvsmRig;
 using tests::Captured;
 using tests::checkNear;
 using tests::Curve;
+using tests::kSpotFar;
+using tests::kSpotNear;
+using tests::parallelLight;
+using tests::spotLight;
 
 namespace {
 
@@ -23,28 +27,6 @@ struct Sphere {
   glm::vec3 centre{0};
   float radius = 0, density = 0;
 };
-
-// Travels along -z through the cube from -1 to 1, so that depth is (1 - z) / 2.
-Light parallelLight() {
-  Light light;
-  light.direction = {0, 0, -1};
-  light.shadow.views = {{tests::toMat4(glm::scale(glm::dmat4(1), glm::dvec3(1, 1, -1))), 0}};
-  return light;
-}
-
-constexpr double kNear = 0.5, kFar = 8;
-
-// At (0, 0, 2), shines along -z.
-Light spotLight(bool reversed) {
-  Light light;
-  light.kind = LightKind::Spot;
-  light.position = {0, 0, 2};
-  const glm::dmat4 view = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -2));
-  glm::dmat4 projection = glm::perspective(1.0, 1.0, kNear, kFar);
-  if (reversed) projection = glm::scale(glm::dmat4(1), glm::dvec3(1, 1, -1)) * projection;
-  light.shadow.views = {{tests::toMat4(projection * view), 0}};
-  return light;
-}
 
 AvsmConfig configOf(int size, int nodes = 8, bool packed = false) {
   AvsmConfig config;
@@ -176,8 +158,8 @@ TEST_CASE("avsm particles: what comes through is the product over all spheres, i
       for (std::size_t i = 0; i < texels.size(); ++i) {
         const glm::dvec2 at = (glm::dvec2(texels[i]) + 0.5) / double{kSize} * 2.0 - 1.0;
         const glm::dvec3 side = glm::dvec3(at * std::tan(0.5), -1);
-        const double expected = spot ? passedBy(spheres, glm::dvec3(0, 0, 2) + kNear * side,
-                                                glm::dvec3(0, 0, 2) + kFar * side, -kNear / (kFar - kNear))
+        const double expected = spot ? passedBy(spheres, glm::dvec3(0, 0, 2) + kSpotNear * side,
+                                                glm::dvec3(0, 0, 2) + kSpotFar * side, tests::depthOfSpot())
                                      : passedBy(spheres, {at, 1}, {at, -1}, -1e9);
         worst = std::max(worst, std::abs(found[i] - expected));
       }

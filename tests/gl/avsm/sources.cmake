@@ -11,4 +11,6 @@ set(TYNDALL_GL_AVSM_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/FragmentTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ParticleTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ShaftTest.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/StreamTest.cpp)
+  ${CMAKE_CURRENT_LIST_DIR}/StreamTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/VolumeRig.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/VolumeTest.cpp)
