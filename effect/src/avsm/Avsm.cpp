@@ -373,13 +373,13 @@ Status Avsm::State::makeObjects() {
   const gl::StateGuard guard(gl, StateMode::Restore);
   const avsm::BufferGuard bufferGuard(gl, StateMode::Restore);
   watch.mark();
-  volumes.makeObjects();
   return allocate();
 }
 
 Status Avsm::State::allocate() {
   gl::OwnErrors errors(gl);
   lists = std::make_unique<avsm::Lists>(gl, config.size, config.layers, config.mostListBytes);
+  volumes.makeObjects();
   curves = gl::Texture(gl);
   particlesBlock = gl::Buffer(gl);
   gl.BindBuffer(gl::UNIFORM_BUFFER, particlesBlock.name());
