@@ -8,7 +8,7 @@
 #define MAX_CONSTITUENTS 4
 #define MAX_HEIGHT_LAYERS 2
 #define AMBIENT_TERMS 9 // spherical harmonics that tell light of the surroundings
-#define AMBIENT_ROWS 27 // so many of what is the same everywhere, and of each layer
+#define AMBIENT_ROWS 36 // so many of what is the same everywhere, of each layer, and of fog before the eye
 #define MAX_SHADOW_VIEWS 6
 #define EDGE_RAYS 3 // that are marched for samples at an edge of a multisampled depth, at most
 #define EPIPOLE_GAP 0.25 // pixels between an epipole in the image and where slices begin
@@ -61,12 +61,18 @@ UNIFORM_BLOCK(FrameBlock) {
   int eyeCurvesSize, eyeCurvesPacked, texelsPerEyeCurve;
   int framePadding0;
   vec4 eyeCurveDepth;                 // 0 and 1 at the planes between which they were captured
+  // What they take of light may be scattered: the phase function's a, b, c, side; albedo times its norm over the scattering that lightColour holds;
+  vec4 fogShape;
+  vec3 fogScattering;
+  int isFogLit;                       // 1 if any is
+  vec3 mediumScatters;                // 1 in channels in which the medium itself scatters, else 0
+  int fogDimsBackground;              // 1 if they dim the picture behind, too
 };
 
 // Light of the surroundings (passes/ambient.frag).
 UNIFORM_BLOCK(AmbientBlock) {
   // What the constituents that are the same everywhere scatter of it towards the eye, along a unit of length, and then those that follow
-  // each layer, where density is 1, as parts of ambientScale: nine coefficients each of 1, y, z, x, x y, y z, 3 z^2 - 1, x z, x^2 - y^2 of the ray's direction.
+  // each layer, where density is 1, and what curves before the eye take, as parts of ambientScale: nine coefficients each of 1, y, z, x, x y, y z, 3 z^2 - 1, x z, x^2 - y^2 of the ray's direction.
   vec4 ambientHarmonics[AMBIENT_ROWS];
   ivec2 occlusionSize;                // of the texture; 0: there is none
   float ambientScale;

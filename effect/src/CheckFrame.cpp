@@ -87,6 +87,13 @@ Status checkLayers(const Medium& medium) {
   return {};
 }
 
+Status checkPhase(const std::string& field, Phase phase, float g) {
+  if (phase < Phase::Isotropic || phase > Phase::CornetteShanks)
+    return invalid(field + "phase", std::to_string(static_cast<int>(phase)), "must be one of the enumerators");
+  if (!(g > -1 && g < 1)) return invalid(field + "g", text(g), "must lie between -1 and 1, both excluded");
+  return {};
+}
+
 Status checkMedium(const Medium& medium) {
   if (Status s = checkLayers(medium); !s) return s;
   if (medium.constituents.size() > kMaxConstituents)
@@ -97,9 +104,7 @@ Status checkMedium(const Medium& medium) {
     const std::string field = "medium.constituents[" + std::to_string(i) + "].";
     if (!isNonNegative(c.scattering))
       return invalid(field + "scattering", textOf(c.scattering), "must be finite and >= 0");
-    if (c.phase < Phase::Isotropic || c.phase > Phase::CornetteShanks)
-      return invalid(field + "phase", std::to_string(static_cast<int>(c.phase)), "must be one of the enumerators");
-    if (!(c.g > -1 && c.g < 1)) return invalid(field + "g", text(c.g), "must lie between -1 and 1, both excluded");
+    if (Status s = checkPhase(field, c.phase, c.g); !s) return s;
     if (Status s = checkLayer(medium, field + "layer", c.layer); !s) return s;
   }
   if (Status s = checkLayer(medium, "medium.absorptionLayer", medium.absorptionLayer); !s) return s;
@@ -138,7 +143,17 @@ Status checkEyeCurves(const Frame& frame) {
   const EyeCurves& eye = frame.eyeCurves;
   if (eye.curves.texture == 0) return {};
   if (Status s = checkNodes("eyeCurves.curves.nodes", eye.curves); !s) return s;
-  return checkEyePlanes(frame.camera, eye.nearDistance, eye.farDistance);
+  if (Status s = checkEyePlanes(frame.camera, eye.nearDistance, eye.farDistance); !s) return s;
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (!(eye.albedo[c] >= 0 && eye.albedo[c] <= 1))
+      return invalid("eyeCurves.albedo", textOf(eye.albedo), "must be 0 to 1");
+    const auto scatters = [&](const Constituent& constituent) { return constituent.scattering[c] > 0; };
+    const auto& all = frame.medium.constituents;
+    if (eye.albedo[c] > 0 && all.size() == kMaxConstituents && std::none_of(all.begin(), all.end(), scatters))
+      return invalid("eyeCurves.albedo", textOf(eye.albedo),
+                     "a medium of four constituents must scatter in each channel in which this does");
+  }
+  return checkPhase("eyeCurves.", eye.phase, eye.g);
 }
 
 Status checkView(const Frame& frame) {

@@ -3,6 +3,7 @@
 #include "FieldText.h"
 #include "optics/Ambient.h"
 #include "optics/Blocks.h"
+#include "optics/EyeLight.h"
 #include "optics/HeightFog.h"
 #include "optics/Projections.h"
 
@@ -113,6 +114,7 @@ void checkMedium(const Frame& frame, Findings& findings) {
   const glm::dvec3 extinction = optics::extinctionAtEye(frame.medium, frame.camera);
   const double most = std::max({scattering.x, scattering.y, scattering.z});
   const double least = std::min({extinction.x, extinction.y, extinction.z});
+  if (most == 0 && optics::isFogLit(frame)) return;
   if (most == 0) {
     if (!frame.lights.empty() || optics::isLit(frame.ambient))
       findings.warnings.emplace_back("Frame::medium.constituents scatter nothing: no light is added");

@@ -13,6 +13,12 @@
 #define Light Spectrum
 #endif
 
+#if EYE_CURVES
+#define Weight vec3 // how much a span's light counts: what passes, and what is scattered besides
+#else
+#define Weight Visibility
+#endif
+
 // A way of one optical depth in the channel that needs most care: of more where less light is left in it, after a way from where it is
 // brightest or, which tells of twenty depths on, a whole way to the eye. (An error grows as the square of a step, and light of exp(-x) may
 // have one exp(x) times as great; half of that, since what is brightest may lie in shadow.)

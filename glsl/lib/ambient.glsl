@@ -5,9 +5,11 @@
 #include "lib/weighted.glsl"
 #include "lib/eyeTexels.glsl"
 #include "lib/eyeCurves.glsl"
+#include "lib/eyeVeil.glsl"
 #endif
 
-// Of the constituents that are the same everywhere, 0, or of those that follow a layer, 1 and 2: where density is 1, a unit of length.
+// Of the constituents that are the same everywhere, 0, or of those that follow a layer, 1 and 2: where density is 1, a unit of length. 3: of what
+// fog before the eye takes.
 vec3 ambientOf(int group, vec3 d) {
   int first = AMBIENT_TERMS * group;
   float terms[AMBIENT_TERMS] = float[](1.0, d.y, d.z, d.x, d.x * d.y, d.y * d.z, 3.0 * d.z * d.z - 1.0, d.x * d.z, d.x * d.x - d.y * d.y);
@@ -16,12 +18,20 @@ vec3 ambientOf(int group, vec3 d) {
   return max(sum, vec3(0.0));
 }
 
+#if EYE_CURVES
+// So little of what is the same everywhere that it is not seen, for fog to be told in parts of.
+void addFloor(inout Airlight light, vec3 least) {
+#if HEIGHT
+  light.phases.even = max(light.phases.even, least);
+#else
+  light.phase = max(light.phase, least);
+#endif
+}
+#endif
+
 // Of the ray through a window position.
 Airlight ambientLightOf(vec2 position) {
   Ray ray = cameraRay(position);
-#if EYE_CURVES
-  startEyePath(position, ray);
-#endif
   Airlight light = airlightOf(ray);
 #if HEIGHT
   light.phases.even = ambientOf(0, ray.direction);
@@ -31,6 +41,11 @@ Airlight ambientLightOf(vec2 position) {
 #endif
 #else
   light.phase = ambientOf(0, ray.direction);
+#endif
+#if EYE_CURVES
+  startEyePath(position, ray);
+  eyePath.fog = ambientOf(3, ray.direction);
+  if (isFogLit != 0) addFloor(light, 1e-6 * eyePath.fog);
 #endif
   return light;
 }

@@ -18,6 +18,26 @@ vec3 curveEnds(usampler2DArray map, int texels, int isPacked, ivec3 texel) {
   return vec3(curveNodes(map, texels, isPacked, texel, 0).depths.x, last.depths.w, last.passed.w);
 }
 
+const float kLeastPassed = 1e-6; // of an even medium, which would let nothing through
+
+// What passes up to a depth, before what is at that depth itself, as if between two nodes the same were everywhere: so that what is taken there
+// changes as it does in fog, not in steps.
+float curveUpTo(usampler2DArray map, int texels, int isPacked, ivec3 texel, float depth) {
+  vec2 before = vec2(-1e9, 1.0);
+  for (int i = 0; i < texels; ++i) {
+    CurveNodes nodes = curveNodes(map, texels, isPacked, texel, i);
+    for (int k = 0; k < 4; ++k) {
+      vec2 node = vec2(nodes.depths[k], nodes.passed[k]);
+      if (node.x >= depth) {
+        float share = clamp((depth - before.x) / max(node.x - before.x, 1e-30), 0.0, 1.0);
+        return node.y > kLeastPassed ? before.y * pow(node.y / before.y, share) : mix(before.y, node.y, share);
+      }
+      before = node;
+    }
+  }
+  return before.y;
+}
+
 // Adds the part of the line from node a to node b (depth, transmittance) between two depths to an integral and a first moment.
 void addLine(vec2 a, vec2 b, float low, float high, inout vec2 sum) {
   float from = clamp(a.x, low, high), to = clamp(b.x, low, high);

@@ -11,7 +11,7 @@ Spectrum pointIntegrand(Airlight light, float P) {
 }
 
 // One smooth piece of a span: panels in x, at most 1 or 1.75 long and at most 6 optical depths deep, Gauss-Legendre in each.
-void addPiece(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
+void addPiece(Airlight light, float s0, float s1, Weight visibility, inout Light sum) {
   const int kMaxPanels = 32;
   const float kDark = 20.0; // optical depths beyond the start, or a quarter of those of the whole way, after which nothing counts
   float t0 = s0 - light.foot, t1 = s1 - light.foot;

@@ -1,11 +1,12 @@
-// What smoke and hair leave of light on its way to the eye. The light of a ray is added in pieces that are so short that a line stands for the
-// transmittance. Needs lib/eyeTexels.glsl, lib/weighted.glsl.
+// What smoke and hair leave of light on its way to the eye, and what fog scatters that they stand for. The light of a ray is added in pieces that are
+// so short that a line stands for the transmittance. Needs lib/eyeTexels.glsl, lib/weighted.glsl.
 
 struct EyePath {
   vec2 place;           // of the ray in the map
   vec2 depth;           // of the curves at s: x + s y
   float begin, end;     // of what dims, along the ray; the end is not behind the begin if nothing does
   float passed;         // behind it
+  vec3 fog;             // what fog scatters of a light whose direction is one, in the unit of what addAirlight() adds
 } eyePath;
 
 // For the ray through a window position: before any of its light is added.
@@ -24,6 +25,14 @@ void startEyePath(vec2 position, Ray ray) {
   eyePath.begin = max((ends.x - eyePath.depth.x) * inverse, 0.0);
   eyePath.end = (ends.y - eyePath.depth.x) * inverse;
   eyePath.passed = ends.z;
+  if (isFogLit != 0) eyePath.begin = min(eyePath.begin, (1.0 - 1e-4) * eyePath.end); // what is at one depth has a place where it is lit
+#if LIGHT_KIND == 0
+  vec3 sum = lightDirection + ray.direction, difference = lightDirection - ray.direction;
+  eyePath.fog = fogScattering * fogPhase(0.5 * dot(sum, sum), 0.5 * dot(difference, difference));
+#ifdef PHASE_APART
+  eyePath.fog /= phaseAlong(ray);
+#endif
+#endif
 }
 
 // Mean and first moment of the transmittance from one distance to another.
@@ -36,6 +45,26 @@ vec2 eyePassed(float s0, float s1) {
     passed += weight * curveBetween(eyeCurves, texelsPerEyeCurve, eyeCurvesPacked, texel, nearer, farther);
   }
   return passed;
+}
+
+float eyeFogUpTo(float s) { return eyePassedUpTo(eyePath.place, eyePath.depth.x + s * eyePath.depth.y); }
+
+// Of what is taken there, a unit of length: its mean and first moment, the latter from the mean transmittance by Simpson's rule.
+vec2 eyeTaken(float s0, float s1) {
+  float nearer = eyeFogUpTo(s0), farther = s1 < eyePath.end ? eyeFogUpTo(s1) : eyePath.passed, mean = (nearer + 4.0 * eyeFogUpTo(0.5 * (s0 + s1)) + farther) / 6.0;
+  float taken = max(nearer - farther, 0.0);
+  return vec2(taken, clamp(2.0 * mean - nearer - farther, -0.5 * taken, 0.5 * taken)) / max(s1 - s0, 1e-30);
+}
+
+// What of it is scattered towards the eye, as a part of what the medium scatters there.
+vec3 fogOverMedium(Airlight light, float s) {
+#if LIGHT_KIND == 0
+  vec3 fog = eyePath.fog;
+#else
+  vec2 turn = turnAt(light, s);
+  vec3 fog = fogScattering * fogPhase(turn.x, turn.y);
+#endif
+  return fog / max(scatteredAt(light, s), vec3(1e-30));
 }
 
 const float kEyePieces = 256.0; // of what dims, at most: where light changes fast
@@ -57,11 +86,19 @@ void addSeen(Airlight light, float s0, float s1, Visibility mean, Visibility mom
       to = min(piece > from ? piece : s1, min(eyePath.end, s1));
     }
     vec2 passed = dims ? eyePassed(from, to) : vec2(before ? 1.0 : eyePath.passed, 0.0);
-    VisibilityLine own = dimmedBy(partOf(VisibilityLine(mean, moment), s0, s1, from, to), passed);
+    VisibilityLine line = partOf(VisibilityLine(mean, moment), s0, s1, from, to), own = dimmedBy(line, passed);
     own.mean = clamp(own.mean, Visibility(0.0), Visibility(1.0)); // lines are no more than near to what is between 0 and 1, as are their halves
     Visibility most = 0.5 * min(own.mean, 1.0 - own.mean);
     own.moment = clamp(own.moment, -most, most);
-    if (passed.x > 0.0) addWeighted(light, from, to, own.mean, own.moment, sum);
+    Weight weight = mediumScatters * own.mean, weightMoment = mediumScatters * own.moment;
+    if (isFogLit != 0 && dims) {
+      VisibilityLine lit = dimmedBy(line, eyeTaken(from, to));
+      vec3 fog = fogOverMedium(light, 0.5 * (from + to));
+      Visibility litMean = max(lit.mean, Visibility(0.0));
+      weight += fog * litMean;
+      weightMoment += fog * clamp(lit.moment, -0.5 * litMean, 0.5 * litMean);
+    }
+    if (weight != Weight(0.0)) addWeighted(light, from, to, weight, weightMoment, sum);
     from = to;
   }
 }

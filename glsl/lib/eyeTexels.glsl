@@ -26,3 +26,14 @@ vec2 eyePassedAt(vec2 place) {
   }
   return passed;
 }
+
+// What passes at a place up to a depth.
+float eyePassedUpTo(vec2 place, float depth) {
+  float passed = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    float weight;
+    ivec3 texel = eyeTexel(place, k, weight);
+    passed += weight * curveUpTo(eyeCurves, texelsPerEyeCurve, eyeCurvesPacked, texel, depth);
+  }
+  return passed;
+}

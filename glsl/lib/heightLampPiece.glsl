@@ -29,7 +29,7 @@ float smoothLength(Airlight light, float s, float r) {
 }
 
 // Panels in x, at most 1 or 1.75 long (evenLamp.glsl), Gauss-Legendre in each.
-void addPiece(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
+void addPiece(Airlight light, float s0, float s1, Weight visibility, inout Light sum) {
   float t0 = s0 - light.foot, t1 = s1 - light.foot;
   float r0 = sqrt(t0 * t0 + light.height2), r1 = sqrt(t1 * t1 + light.height2);
   float P = t0 > 0.0 ? r0 + t0 : light.height2 / (r0 - t0);

@@ -22,6 +22,9 @@ Airlight airlightOf(Ray ray) {
   return Airlight(phases, heightsAlong(ray), dot(boundary.xyz, ray.origin) + boundary.w, dot(boundary.xyz, ray.direction));
 }
 
+// What is scattered at s of what addAirlight() integrates.
+Spectrum scatteredAt(Airlight light, float s) { return phaseOf(light.phases, densities(light.heights.begin + s * light.heights.slope)); }
+
 void litRange(Airlight light, inout float s0, inout float s1) {}
 
 // The light's way to the point s and on to the eye.
@@ -66,7 +69,7 @@ float evenLength(Airlight light, float most, float s0, float s1) { return most /
 #if HEIGHT == 1
 
 // What extinction takes is in proportion to what is scattered: the integral of density times transmittance is (T(s0) - T(s1)) / sigma.
-void addAirlight(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
+void addAirlight(Airlight light, float s0, float s1, Weight visibility, inout Light sum) {
   Layers begin = light.heights.begin, e0 = begin + s0 * light.heights.slope, e1 = begin + s1 * light.heights.slope, d0 = densities(e0);
   // No more than floats hold: what is as dense as that is dark.
   float before = min(s0 * meanDensities(light.heights, e0, d0), 1e30), own = min(max(s1 - s0, 0.0) * meanDensities(e0, e1, d0, densities(e1)), 1e30);
@@ -102,7 +105,7 @@ float longestPanel(Airlight light, Followed followed, Spectrum alive, Spectrum l
 }
 
 // One smooth piece of a span, Gauss-Legendre in each of its panels.
-void addPiece(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
+void addPiece(Airlight light, float s0, float s1, Weight visibility, inout Light sum) {
   Layers fall = abs(exponentSlopes(lightDirection)); // e-folds that light comes through, a unit of length
   float longest = max(light.path + max(s0 * light.pathSlope, s1 * light.pathSlope), 0.0);
   Followed followed = followedOf(light.heights, s0, s1, min(1.0 / max(fall, 1e-30), longest));
@@ -131,7 +134,7 @@ void addPiece(Airlight light, float s0, float s1, Visibility visibility, inout L
 
 // A span over which the airlight changes little: by its value in the middle and its curvature there. Returns by how much it falls over the
 // span, as a share of itself.
-Spectrum addShort(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
+Spectrum addShort(Airlight light, float s0, float s1, Weight visibility, inout Light sum) {
   float len = s1 - s0, s = 0.5 * (s0 + s1);
   Layers here = light.heights.begin + s * light.heights.slope, slope = light.heights.slope * aboveGround(here), density = densities(here);
   Spectrum rate = extinctionOf(density), growth = layersExtinction(density * slope); // of the way to the eye, and what that rate falls by
@@ -151,7 +154,7 @@ bool isShort(Airlight light, float s0, float s1) {
   return changes < 0.25 && leastOf(e0 * e1) >= 0.0 && boundary == vec4(0.0);
 }
 
-void addAirlight(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
+void addAirlight(Airlight light, float s0, float s1, Weight visibility, inout Light sum) {
   if (!(s1 > s0)) return;
   if (isShort(light, s0, s1)) {
     addShort(light, s0, s1, visibility, sum);

@@ -91,6 +91,14 @@ Phases sharesOf(Phases phases) {
 }
 #endif
 
+#if EYE_CURVES
+// Of what curves before the eye scatter, but for its norm.
+float fogPhase(float oneMinusCos, float onePlusCos) {
+  float cosine = 0.5 * (onePlusCos - oneMinusCos), r = inversesqrt(fogShape.x + fogShape.y * (fogShape.w > 0.0 ? oneMinusCos : onePlusCos));
+  return (1.0 + fogShape.z * cosine * cosine) * (r * r * r);
+}
+#endif
+
 // The same of a directional light along a camera ray. theta lies between the light's travel and the direction to the eye:
 // cos = -dot(l, v), |l + v|^2 / 2 = 1 - cos.
 Spectrum phaseAlong(Ray ray) {

@@ -15,6 +15,9 @@ Airlight airlightOf(Ray ray) {
   return Airlight(phase, dot(boundary.xyz, ray.origin) + boundary.w, dot(boundary.xyz, ray.direction));
 }
 
+// What is scattered at s of what addAirlight() integrates.
+Spectrum scatteredAt(Airlight light, float s) { return light.phase; }
+
 void litRange(Airlight light, inout float s0, inout float s1) {}
 
 // A length from s on over which the airlight changes by about a twentieth in any channel, but more and more where it is less than where it
@@ -48,7 +51,7 @@ Spectrum exponentialSpan(float e0, float slope, float len) {
 
 // Closed form (Yusov 2013, "Directional light"), with the light's own path where the medium has a boundary: in two parts
 // where the ray crosses it.
-void addAirlight(Airlight light, float s0, float s1, Visibility visibility, inout Light sum) {
+void addAirlight(Airlight light, float s0, float s1, Weight visibility, inout Light sum) {
   float crossing = light.pathSlope != 0.0 ? -light.path / light.pathSlope : -1.0;
   float from = s0;
   for (int i = 0; i < 2 && from < s1; ++i) {

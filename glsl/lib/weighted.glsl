@@ -27,7 +27,7 @@ vec3 langevin(vec3 x) { return vec3(langevin(x.x), langevin(x.y), langevin(x.z))
 // Adds the light of a span where the visibility has a mean and a first moment (from -1 to 1 over the span), as that of a line.
 #if LIGHT_KIND == 0 && !HEIGHT
 // With fades or curves spans may be long; else the airlight falls along a line, too.
-void addWeighted(Airlight light, float s0, float s1, Visibility mean, Visibility moment, inout Light sum) {
+void addWeighted(Airlight light, float s0, float s1, Weight mean, Weight moment, inout Light sum) {
   bool attenuated = light.path + 0.5 * (s0 + s1) * light.pathSlope > 0.0;
   Spectrum fall = SPECTRUM(extinction) * ((attenuated ? 1.0 + light.pathSlope : 1.0) * (s1 - s0));
 #if SHADOW_VIEWS == 2 || CURVES || EYE_CURVES
@@ -36,22 +36,22 @@ void addWeighted(Airlight light, float s0, float s1, Visibility mean, Visibility
   Spectrum towards = 0.5 * fall;
 #endif
   Light own = Light(0.0);
-  addAirlight(light, s0, s1, Visibility(1.0), own);
+  addAirlight(light, s0, s1, Weight(1.0), own);
   sum += own * (mean - moment * towards);
 }
 #else
 // As two halves, unless the visibility is even, or the airlight nearly falls along a line.
-void addWeighted(Airlight light, float s0, float s1, Visibility mean, Visibility moment, inout Light sum) {
+void addWeighted(Airlight light, float s0, float s1, Weight mean, Weight moment, inout Light sum) {
 #if HEIGHT > 1 && LIGHT_KIND == 0
   if (isShort(light, s0, s1)) {
     Light own = Light(0.0);
-    Spectrum fall = addShort(light, s0, s1, Visibility(1.0), own);
+    Spectrum fall = addShort(light, s0, s1, Weight(1.0), own);
     sum += own * (mean - moment * (0.5 * fall));
     return;
   }
 #endif
-  float end = moment == Visibility(0.0) ? s1 : 0.5 * (s0 + s1);
-  Visibility own = end < s1 ? mean - 2.0 * moment : mean, behind = mean + 2.0 * moment;
+  float end = moment == Weight(0.0) ? s1 : 0.5 * (s0 + s1);
+  Weight own = end < s1 ? mean - 2.0 * moment : mean, behind = mean + 2.0 * moment;
   while (s0 < s1) {
     addAirlight(light, s0, end, own, sum);
     own = behind;

@@ -28,6 +28,9 @@ void main() {
     float end = sampleEndAt(k);
     if (end != last) {
       passed = transmittanceTo(ray, end);
+#if EYE_CURVES
+      passed *= eyeTransmittance(unjittered(gl_FragCoord.xy), ray, end);
+#endif
       own = vec3(0.0);
       addAmbient(light, 0.0, min(end, visibleEnd), own);
       last = end;

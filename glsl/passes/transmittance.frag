@@ -3,6 +3,13 @@
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
+#if EYE_CURVES
+#include "lib/curveNodes.glsl"
+#include "lib/eyeTexels.glsl"
+#include "lib/eyeVeil.glsl"
+#else
+float eyeTransmittance(vec2 position, Ray ray, float s) { return 1.0; }
+#endif
 #include "lib/depthSamples.glsl"
 
 #if COMPOSITE
@@ -16,7 +23,7 @@ void main() {
   vec3 transmittance = vec3(0.0);
   Ray ray = cameraRay(unjittered(gl_FragCoord.xy));
   for (int k = 0; k < depthSampleCount; ++k)
-    transmittance += transmittanceTo(ray, sampleEndAt(k)) / float(depthSampleCount);
+    transmittance += eyeTransmittance(unjittered(gl_FragCoord.xy), ray, sampleEndAt(k)) * transmittanceTo(ray, sampleEndAt(k)) / float(depthSampleCount);
   outInscatter = vec4(0.0);
   outTransmittance = vec4(transmittance, 1.0);
 }

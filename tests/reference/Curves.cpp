@@ -97,12 +97,30 @@ EyeDimming::EyeDimming(const EyeCurveMap& map, double x, double y, double advanc
   std::sort(bends_.begin(), bends_.end());
 }
 
-double EyeDimming::at(double s) const {
+template <typename OnCurve>
+double EyeDimming::meanAt(double s, const OnCurve& onCurve) const {
   const double depth = (s * advance_ - map_.near) / (map_.far - map_.near);
   double sum = 0;
   for (std::size_t k = 0; k < texels_.size(); ++k)
     sum += weights_[k] * onCurve(map_.map.curves[texels_[k]], depth);
   return sum;
+}
+
+double EyeDimming::at(double s) const { return meanAt(s, onCurve); }
+
+double EyeDimming::inFogAt(double s) const {
+  constexpr double kLeast = 1e-6; // of an even medium, which would let nothing through
+  return meanAt(s, [](const std::vector<glm::dvec2>& curve, double depth) {
+    glm::dvec2 before(-1e9, 1);
+    for (const glm::dvec2& node : curve) {
+      if (depth <= node.x) {
+        const double share = node.x > before.x ? (depth - before.x) / (node.x - before.x) : 1;
+        return node.y > kLeast ? before.y * std::pow(node.y / before.y, share) : before.y + (node.y - before.y) * share;
+      }
+      before = node;
+    }
+    return before.y;
+  });
 }
 
 } // namespace reference

@@ -34,6 +34,8 @@ double dimming(const CurveMap& map, const tyndall::Light& light, const glm::dvec
 struct EyeCurveMap {
   CurveMap map; ///< size 0: nothing stands before the eye
   double near = 0, far = 1;
+  tyndall::Constituent fog;    ///< scattering: albedo of what the curves take
+  bool dimsBackground = false; ///< of the picture behind, too
 };
 
 /// What passes along a ray through a place of the image, 0 to 1 across and up, at so many depths as curves bend at:
@@ -48,7 +50,13 @@ public:
 
   double at(double s) const;
 
+  /// The same where between two nodes of a curve an even medium is: what fog is taken to be.
+  double inFogAt(double s) const;
+
 private:
+  template <typename OnCurve>
+  double meanAt(double s, const OnCurve& onCurve) const;
+
   const EyeCurveMap& map_;
   double advance_;
   std::vector<std::size_t> texels_;

@@ -79,12 +79,14 @@ private:
     }
     const double advance = glm::dot(ray.direction, axis_);
     const EyeDimming dimming(scene_.eyeCurves, (x + 0.5) / scene_.width, (y + 0.5) / scene_.height, advance);
+    if (scene_.eyeCurves.dimsBackground) answer.transmittance *= dimming.inFogAt(end);
     const auto light = [&](double from, double to) { return lightOf(lights, ray, from, to, end); };
     constexpr double kTold = 3e-6; // of all that the ray has
     const double told = kTold * brightest(light(0, end));
     double from = 0;
     const auto addUpTo = [&](double to) {
       answer.inscatter += dimmedLight(light, dimming, from, to, light(from, to), told);
+      answer.inscatter += fogLight(lights, dimming, ray, from, to, end);
       from = to;
     };
     for (const double bend : dimming.bends())
@@ -111,9 +113,10 @@ private:
            dimmedLight(light, dimming, middle, to, second, told, depth + 1);
   }
 
-  /// Of the surroundings, times the share that is open, and of the lights.
+  /// Of the surroundings, times the share that is open, and of the lights. Foggy: as if each unit of length scattered,
+  /// besides, as much as fog does of what is taken.
   struct Lights {
-    std::vector<Airlight> surroundings, lights;
+    std::vector<Airlight> surroundings, lights, foggySurroundings, foggy;
     double open = 1;
   };
 
@@ -125,7 +128,55 @@ private:
     }
     for (const tyndall::Light& light : scene_.lights)
       along.lights.emplace_back(scene_.medium, light, ray);
+    if (toRgb(scene_.eyeCurves.fog.scattering) == Rgb(0)) return along;
+    const tyndall::Medium foggy = foggyMedium();
+    for (const tyndall::Light& light : scene_.lights)
+      along.foggy.emplace_back(foggy, light, ray);
+    if (!isLit(scene_.ambient)) return along;
+    std::vector<Rgb> radiances(foggy.constituents.size(), Rgb(0));
+    radiances.back() = glm::max(scatteredRadiance(scene_.eyeCurves.fog, scene_.ambient, ray.direction), 0.0);
+    along.foggySurroundings.emplace_back(foggy, radiances, ray);
     return along;
+  }
+
+  /// The medium, of whose absorption so much scatters instead.
+  tyndall::Medium foggyMedium() const {
+    tyndall::Medium medium = scene_.medium;
+    if (medium.absorptionLayer != -1 && toRgb(medium.absorption) != Rgb(0))
+      throw std::invalid_argument("reference::mapExact: fog before the eye needs an absorption that is even");
+    medium.absorptionLayer = -1;
+    medium.constituents.push_back(scene_.eyeCurves.fog);
+    for (std::size_t c = 0; c < 3; ++c)
+      medium.absorption[c] -= scene_.eyeCurves.fog.scattering[c];
+    return medium;
+  }
+
+  Rgb fogLightOf(const Lights& lights, const Ray& ray, double from, double to, double end) const {
+    Rgb sum(0);
+    for (const Airlight& airlight : lights.foggySurroundings)
+      sum += lights.open * airlight.span(from, to);
+    for (std::size_t i = 0; i < lights.lights.size(); ++i)
+      sum += lightOf(i, lights.foggy[i], ray, from, to, end) - lightOf(i, lights.lights[i], ray, from, to, end);
+    return sum;
+  }
+
+  /// What fog scatters of what is taken of light between two bends, and at once at the first.
+  Rgb fogLight(const Lights& lights, const EyeDimming& dimming, const Ray& ray, double from, double to,
+               double end) const {
+    if (lights.foggy.empty() && lights.foggySurroundings.empty()) return Rgb(0);
+    Rgb sum(0);
+    const auto add = [&](double taken, double a, double b) {
+      if (taken > 1e-9 && b > a && std::isfinite(b)) sum += fogLightOf(lights, ray, a, b, end) * (taken / (b - a));
+    };
+    const auto behind = [&](double s) { return dimming.inFogAt(s + 1e-9 * s); };
+    const auto before = [&](double s) { return dimming.inFogAt(s - 1e-9 * s); };
+    add(before(from) - behind(from), from - 1e-6 * from, from + 1e-6 * from);
+    constexpr int kParts = 16;
+    for (int i = 0; i < kParts; ++i) {
+      const double a = from + (to - from) * i / kParts, b = from + (to - from) * (i + 1) / kParts;
+      add(behind(a) - before(b), a, b);
+    }
+    return sum;
   }
 
   /// Between two places of a ray that ends at `end`.

@@ -93,7 +93,7 @@ Airlight::Airlight(const tyndall::Medium& medium, const tyndall::Light& light, c
   double thinnest = kInfinity;
   for (int c = 0; c < 3; ++c)
     if (extinction_[c] > 0) thinnest = std::min(thinnest, extinction_[c]);
-  support_ = {0, kUnderflow / thinnest};
+  support_ = {0, std::isinf(thinnest) ? 1e30 : kUnderflow / thinnest};
   if (isLayered(medium)) {
     layers_.emplace(medium, light, ray);
     support_ = {0, layers_->end()};

@@ -6,6 +6,7 @@
 //
 //     out(v) = back(v) T(d) + sum over lights of  integral_0^d T(s) C(s) [sum_k sigma_k p_k] E V G A ds
 //                           + integral_0^d T(s) C(s) [sum_k sigma_k  integral p_k L_ambient] ds  (Ambient),
+//                           + the same with -dC/ds a p in place of C(s) [sum_k ...], fog of albedo a  (EyeCurves),
 //     T(s) = exp(-integral_0^s sigma_t), A and C what smoke leaves of light on its way there and to the eye.
 //
 // Conventions. World units are the engine's own: nothing depends on their scale. Matrices are column-major, column
@@ -443,13 +444,21 @@ struct MovingObject {
 /// What smoke and hair before the eye leave of the light behind them: curves as Light::curves, but captured from
 /// Frame::camera through eyeLight() (tyndall/avsm.h). They dim the medium's light, of all lights and of the
 /// surroundings, by what stands before it, and nothing else: the engine draws smoke and hair over its picture by
-/// itself, before the effect. Low rank is Tree then, and a change of the curves draws all anew. Lights' programs are
-/// others than without: prepare() compiles those of the frame that it is given.
+/// itself, before the effect. Fog that it does not draw, banks of it that Avsm::drawVolumes() captures, say, the effect
+/// lights: with an albedo it scatters what it takes, as a medium of its own, and with dimsBackground it dims the
+/// picture behind as the medium does. Low rank is Tree then, and a change of the curves draws all anew. Lights'
+/// programs are others than without: prepare() compiles those of the frame that it is given.
 struct EyeCurves {
   AvsmCurves curves; ///< of layer 0; texture 0: nothing stands before the eye
   double nearDistance =
       0; ///< where their depth is 0, as eyeLight() was given it: world units, >= 1e-30, of an orthographic camera >= 0
   double farDistance = 0; ///< and 1: at least 1.0001 and, of a perspective camera, at most 1e6 times that; < 1e30
+  /// Share that is scattered of the light that the curves take: 0 to 1. 0: none, they only dim. A medium of four
+  /// constituents must scatter in each channel in which this does.
+  Rgb albedo = {0, 0, 0};
+  Phase phase = Phase::Isotropic; ///< by which it is scattered
+  float g = 0;                    ///< and its asymmetry, as Constituent::g
+  bool dimsBackground = false;    ///< they dim the picture behind, too, Output::transmittance and that of a Lookup
 };
 
 /// Textures of the engine's own to write instead of, or besides, blending into Frame::colour. GL_TEXTURE_2D, a float

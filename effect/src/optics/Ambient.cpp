@@ -1,6 +1,7 @@
 #include "optics/Ambient.h"
 
 #include "optics/Blocks.h"
+#include "optics/EyeLight.h"
 #include "optics/HeightFog.h"
 #include "optics/Matrices.h"
 
@@ -36,8 +37,8 @@ Terms scatteredBy(const Constituent& constituent, const Ambient& ambient) {
   return terms;
 }
 
-// Of what is the same everywhere, and of what follows each layer.
-using Groups = std::array<Terms, 1 + MAX_HEIGHT_LAYERS>;
+// Of what is the same everywhere, of what follows each layer, and of what fog before the eye takes.
+using Groups = std::array<Terms, 2 + MAX_HEIGHT_LAYERS>;
 
 Groups groupsOf(const Frame& frame) {
   Groups groups{};
@@ -48,6 +49,7 @@ Groups groupsOf(const Frame& frame) {
     for (std::size_t i = 0; i < kTerms; ++i)
       group[i] += terms[i];
   }
+  if (isFogLit(frame)) groups.back() = scatteredBy(fogConstituent(frame), frame.ambient);
   return groups;
 }
 
@@ -124,9 +126,15 @@ double brightestAmbient(const Frame& frame) {
     for (std::size_t i = 0; i < kTerms; ++i)
       most += kMost[i] * glm::abs(terms[i]);
   }
+  dvec3 fog(0); // all that it takes, within no length
+  if (isFogLit(frame)) {
+    const Terms terms = scatteredBy(fogConstituent(frame), frame.ambient);
+    for (std::size_t i = 0; i < kTerms; ++i)
+      fog += kMost[i] * glm::abs(terms[i]);
+  }
   double brightest = 0;
   for (int c = 0; c < 3; ++c)
-    if (most[c] > 0) brightest = std::max(brightest, most[c] * way[c]);
+    brightest = std::max(brightest, (most[c] > 0 ? most[c] * way[c] : 0) + fog[c]);
   return brightest;
 }
 

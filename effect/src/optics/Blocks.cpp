@@ -58,8 +58,8 @@ glm::vec4 phaseNormAndShape(const Constituent& c, double& norm) {
 }
 
 // Distance behind which no channel that scatters shows anything, whatever layers add to what is everywhere.
-double visibleDistance(const Medium& medium) {
-  const glm::dvec3 extinction = extinctionOf(medium, kEverywhere), scattering = scatteringOf(medium);
+double visibleDistance(const Medium& medium, const Medium& lit) {
+  const glm::dvec3 extinction = extinctionOf(medium, kEverywhere), scattering = scatteringOf(lit);
   double distance = 0;
   for (int c = 0; c < 3; ++c)
     if (scattering[c] > 0) distance = std::max(distance, kInvisibleDepth / extinction[c]);
@@ -122,8 +122,22 @@ void setLookup(blocks::FrameBlock& block, const Lookup& lookup, const glm::ivec3
 
 int texelsOf(const AvsmCurves& curves) { return curves.nodes / (curves.packed ? 4 : 2); }
 
-void setEyeCurves(blocks::FrameBlock& block, const Frame& frame, int size) {
+// What fog scatters of a light, as a part of what `lit` does.
+void setFog(blocks::FrameBlock& block, const Frame& frame, const Medium& lit) {
+  const glm::dvec3 own = scatteringOf(frame.medium), told = scatteringOf(lit), albedo = fogAlbedo(frame);
+  double norm = 0;
+  block.fogShape = phaseNormAndShape(fogConstituent(frame), norm);
+  for (int c = 0; c < 3; ++c) {
+    block.mediumScatters[c] = own[c] > 0 ? 1 : 0;
+    block.fogScattering[c] = static_cast<float>(albedo[c] > 0 ? std::min(norm * albedo[c] / told[c], kBrightest) : 0);
+  }
+  block.isFogLit = isFogLit(frame) ? 1 : 0;
+  block.fogDimsBackground = fogDimsBackground(frame) ? 1 : 0;
+}
+
+void setEyeCurves(blocks::FrameBlock& block, const Frame& frame, const Medium& lit, int size) {
   const EyeCurves& eye = frame.eyeCurves;
+  if (isDimmedBeforeEye(frame)) setFog(block, frame, lit);
   if (size == 0) return;
   block.eyeCurvesSize = size;
   block.eyeCurvesPacked = eye.curves.packed ? 1 : 0;
@@ -170,6 +184,20 @@ glm::dvec3 peakPhase(const blocks::FrameBlock& block) {
   return peak;
 }
 
+glm::dvec3 peakFog(const blocks::FrameBlock& block) {
+  const glm::dvec4 shape(block.fogShape);
+  return glm::dvec3(block.fogScattering) * ((1 + shape.z) / std::pow(shape.x, 1.5));
+}
+
+glm::dvec3 leastPhase(const blocks::FrameBlock& block) {
+  glm::dvec3 least(0);
+  for (int k = 0; k < block.constituentCount; ++k) {
+    const glm::dvec4 shape(block.phaseShape[k]);
+    least += glm::dvec3(block.phaseWeight[k]) / std::pow(shape.x + 2 * shape.y, 1.5);
+  }
+  return least;
+}
+
 glm::dvec3 scatteringOf(const Medium& medium) {
   glm::dvec3 sum(0);
   for (const Constituent& c : medium.constituents)
@@ -192,12 +220,13 @@ blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
   setCameraRays(block, frame);
   block.extinction = glm::min(
       isLayered(frame.medium) ? extinctionOf(frame.medium, kEverywhere) : extinctionOf(frame.medium), kBrightest);
-  block.visibleEnd = static_cast<float>(visibleDistance(frame.medium));
-  const std::vector<glm::dvec3> shares = sharesOf(frame.medium);
+  const Medium lit = litMedium(frame);
+  block.visibleEnd = static_cast<float>(visibleDistance(frame.medium, lit));
+  const std::vector<glm::dvec3> shares = sharesOf(lit);
   for (std::size_t k = 0; k < shares.size(); ++k) {
     double norm = 0;
-    block.phaseShape[k] = phaseNormAndShape(frame.medium.constituents[k], norm);
-    block.phaseWeight[k] = glm::vec4(glm::vec3(shares[k] * norm), frame.medium.constituents[k].layer + 1);
+    block.phaseShape[k] = phaseNormAndShape(lit.constituents[k], norm);
+    block.phaseWeight[k] = glm::vec4(glm::vec3(shares[k] * norm), lit.constituents[k].layer + 1);
   }
   setLayers(block, frame);
   block.dimsBackground = frame.medium.dimsBackground ? 1 : 0;
@@ -210,7 +239,7 @@ blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
   block.jitter = {frame.camera.jitter[0], frame.camera.jitter[1]};
   setEngineDepth(block, frame, sizes.depthRounding);
   setLookup(block, frame.lookup, sizes.lookup);
-  setEyeCurves(block, frame, sizes.eyeCurves);
+  setEyeCurves(block, frame, lit, sizes.eyeCurves);
   return block;
 }
 
@@ -297,7 +326,7 @@ blocks::LightBlock lightBlock(const Frame& frame, const Light& light, int shadow
       light.kind == LightKind::Point ? glm::dvec3(0, -1, 0) : directionOf(toGlm(light.direction));
   blocks::LightBlock block{};
   const double scale = light.scatteringScale;
-  block.lightColour = glm::min(scale * glm::dvec3(toGlm(light.colour)) * scatteringOf(frame.medium), kBrightest);
+  block.lightColour = glm::min(scale * glm::dvec3(toGlm(light.colour)) * scatteringOf(litMedium(frame)), kBrightest);
   block.lightDirection = direction;
   if (light.kind != LightKind::Directional)
     block.lightPosition = glm::clamp(fromEye(toGlm(light.position), origin), -kBrightest, kBrightest);

@@ -42,6 +42,12 @@ double farthestEnd(const blocks::FrameBlock& block);
 /// The greatest value of the phase function of all constituents together, per channel, 1/sr.
 glm::dvec3 peakPhase(const blocks::FrameBlock& block);
 
+/// The least that it is sure to be.
+glm::dvec3 leastPhase(const blocks::FrameBlock& block);
+
+/// What fog before the eye scatters at most of a light's irradiance, in all, in the same unit; 0 without.
+glm::dvec3 peakFog(const blocks::FrameBlock& block);
+
 /// Extinction sigma_t = scattering of all constituents + absorption, where the density of layers is 1; 1/world unit.
 glm::dvec3 extinctionOf(const Medium& medium);
 

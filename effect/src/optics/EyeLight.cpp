@@ -56,6 +56,25 @@ Light eyeLight(const Camera& camera, double nearDistance, double farDistance) {
   return light;
 }
 
+Constituent fogConstituent(const Frame& frame) {
+  Constituent fog;
+  fog.scattering = frame.eyeCurves.albedo;
+  fog.phase = frame.eyeCurves.phase;
+  fog.g = frame.eyeCurves.g;
+  return fog;
+}
+
+Medium litMedium(const Frame& frame) {
+  Medium medium = frame.medium;
+  const glm::dvec3 fog = fogAlbedo(frame), scattering = scatteringOf(medium);
+  Constituent little;
+  for (int c = 0; c < 3; ++c)
+    if (fog[c] > 0 && scattering[c] == 0)
+      little.scattering[static_cast<std::size_t>(c)] = static_cast<float>(1 / frame.eyeCurves.farDistance);
+  if (little.scattering != Rgb{0, 0, 0}) medium.constituents.push_back(little);
+  return medium;
+}
+
 glm::dvec4 eyeDepth(const Camera& camera, double nearDistance, double farDistance) {
   const double depth = farDistance - nearDistance;
   return {Seen(camera).forward / depth, -nearDistance / depth};

@@ -190,11 +190,14 @@ double brightestInscatter(const Frame& frame, const Light& light) {
   const dvec3 phase = peakPhase(block);
   const double passed = greatestDensity(frame.medium, origin, dvec3(lamp.lightPosition)) * glm::pi<double>() /
                         std::max(halfPixelAt(dvec3(lamp.lightPosition), block), 1e-300);
+  const double halfPixel = std::max(halfPixelAt(dvec3(lamp.lightPosition), block), 1e-150);
+  const dvec3 fog = peakFog(block) / (light.kind == LightKind::Directional ? 1 : halfPixel * halfPixel);
   double brightest = 0;
   for (int c = 0; c < 3; ++c)
     if (lamp.lightColour[c] > 0)
-      brightest = std::max(brightest,
-                           lamp.lightColour[c] * phase[c] * (light.kind == LightKind::Directional ? way[c] : passed));
+      brightest =
+          std::max(brightest, lamp.lightColour[c] *
+                                  (phase[c] * (light.kind == LightKind::Directional ? way[c] : passed) + fog[c]));
   return brightest;
 }
 

@@ -201,17 +201,23 @@ void setStored(blocks::EpipolarBlock& block, const Frame& frame, const Light& li
   const blocks::FrameBlock camera = frameBlock(frame, {});
   const double longest = std::min<double>(farthestEnd(camera), camera.visibleEnd);
   dvec3 scale(0.5 * kLargestHalf / longest);
+  double distance = glm::length(dvec3(lamp.lightPosition));
+  if (camera.isOrthographic != 0) distance = std::max(distance, 0.5 * glm::length(dvec3(camera.nearStep)));
+  distance = std::max(distance, 1e-30);
   if (light.kind == LightKind::Directional && isLayered(frame.medium)) {
     scale = 0.5 * kLargestHalf / glm::max(longestWay(frame.medium, cameraOrigin(frame.camera), longest), 1e-30);
   } else if (light.kind == LightKind::Directional) {
     scale = glm::max(scale, 0.5 * kLargestHalf * dvec3(camera.extinction));
   } else {
-    double distance = glm::length(dvec3(lamp.lightPosition));
-    if (camera.isOrthographic != 0) distance = std::max(distance, 0.5 * glm::length(dvec3(camera.nearStep)));
     const dvec3 peak = peakPhase(camera);
-    scale =
-        dvec3(kLargestHalf / 256 / glm::pi<double>() * std::max(distance, 1e-30) / std::max({peak.x, peak.y, peak.z}));
+    scale = dvec3(kLargestHalf / 256 / glm::pi<double>() * distance / std::max({peak.x, peak.y, peak.z}));
     scale /= greatestDensity(frame.medium, cameraOrigin(frame.camera), dvec3(lamp.lightPosition));
+  }
+  // What fog adds: all of a sun's light within no length; a lamp's as if it were as near as a ray may come (above).
+  if (camera.isFogLit != 0) {
+    const dvec3 peak = light.kind == LightKind::Directional ? peakFog(camera) / glm::max(leastPhase(camera), 1e-30)
+                                                            : peakFog(camera) * (256 / (distance * distance));
+    scale = 1.0 / (dvec3(camera.mediumScatters) / scale + peak / (0.5 * kLargestHalf));
   }
   block.storedScale = glm::clamp(scale, 1e-30, 1e30);
   block.leastCoordinate = static_cast<float>(std::log2(longest) + 2 - kCoordinates);

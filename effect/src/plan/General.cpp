@@ -60,7 +60,8 @@ bool seesLayers(std::string_view fragment, const Values& values) {
 // Where what smoke and hair leave of light on its way to the eye is looked at: where light is integrated, and where it
 // is decided for which samples.
 bool seesEyeCurves(std::string_view fragment, const Values& values) {
-  return isOneOf(fragment, {"ambient", "exact", "lookupAmbient", "lookupLight", "march", "marchExtra", "marks"}) &&
+  return isOneOf(fragment, {"ambient", "exact", "lookupAmbient", "lookupLight", "lookupTransmittance", "march",
+                            "marchExtra", "marks", "transmittance"}) &&
          values["SHARES"] == 0;
 }
 

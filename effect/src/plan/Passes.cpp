@@ -119,6 +119,7 @@ std::vector<PassRow> makeRows() {
           .joins(kSumOfLights),
       Row(Pass::Transmittance, "transmittance", "passes/transmittance.frag", S::Image)
           .readsIfThere({kDepthSideBySide, R::SceneDepthSamples}) // one of the two
+          .reads({R::EyeCurves})
           .into(Into::Destination)
           .joins(kSumOfLights),
       Row(Pass::Ambient, "ambient", "passes/ambient.frag", S::Image)
@@ -404,7 +405,9 @@ std::vector<PassRow> makeRows() {
           .reads({R::LookupSteps})
           .into(Into::Lookup)
           .sameForAllLights(),
-      Row(Pass::LookupTransmittance, "look-up transmittance", "passes/lookupTransmittance.frag").into(Into::Lookup),
+      Row(Pass::LookupTransmittance, "look-up transmittance", "passes/lookupTransmittance.frag")
+          .reads({R::EyeCurves})
+          .into(Into::Lookup),
       Row(Pass::KeepEnds, "keep ends", "passes/copyTexels.frag", S::Slices)
           .reads({R::Image})
           .writes({R::SampleEnds})

@@ -23,8 +23,12 @@ namespace {
 bool hasDebugView(const Frame& frame) { return frame.settings.debugView != DebugView::Composite; }
 bool showsSlices(const Frame& frame) { return rowOf(frame.settings.debugView)->shown != Shown::Picture; }
 bool usesSlices(const Frame& frame) { return frame.settings.technique != Technique::Exact; }
+bool scatters(const Frame& frame) {
+  return optics::scatteringOf(frame.medium) != glm::dvec3(0) || optics::isFogLit(frame);
+}
 bool changesColour(const Frame& frame) {
   const auto isThere = [](const glm::dvec3& sigma) { return sigma != glm::dvec3(0); };
+  if (optics::isFogLit(frame) || optics::fogDimsBackground(frame)) return true;
   return isThere(frame.medium.dimsBackground ? optics::extinctionOf(frame.medium) : optics::scatteringOf(frame.medium));
 }
 
@@ -32,7 +36,7 @@ bool changesColour(const Frame& frame) {
 std::string reasonToSkip(const Frame& frame, const Light& light, bool wantsInscatter, bool anyCamera) {
   if (light.colour == Rgb{0, 0, 0}) return "the light is black";
   if (light.scatteringScale == 0) return "the light's scatteringScale is 0";
-  if (optics::scatteringOf(frame.medium) == glm::dvec3(0)) return "the medium does not scatter";
+  if (!scatters(frame)) return "the medium does not scatter";
   if (!wantsInscatter) return "only the transmittance is wanted";
   if (!anyCamera && optics::isOutOfView(light, optics::jittered(frame.camera, frame.viewport)))
     return "the light's volume is outside the view";
@@ -42,7 +46,7 @@ std::string reasonToSkip(const Frame& frame, const Light& light, bool wantsInsca
 // The same of the light of the surroundings, which most frames have none of.
 std::string reasonToSkipAmbient(const Frame& frame, bool wantsInscatter) {
   if (!optics::isLit(frame.ambient)) return "no light comes from the surroundings";
-  if (optics::scatteringOf(frame.medium) == glm::dvec3(0)) return "the medium does not scatter";
+  if (!scatters(frame)) return "the medium does not scatter";
   return wantsInscatter ? "" : "only the transmittance is wanted";
 }
 
@@ -275,15 +279,19 @@ AmbientKey FramePlanner::ambientKey() const {
   return {optics::ambientBlock(frame_, in_.textures.occlusion), frame_.ambient.occlusion};
 }
 
-// The light of the surroundings comes first, with the transmittance; the lights are added to it. False if there is
-// none.
+// What comes first, with the transmittance: the light of the surroundings or, where fog before the eye dims the picture
+// behind, nothing else; the lights are added to it. False if there is neither.
 bool FramePlanner::planAmbient(const PassPlanner& planner) {
   const Destination& to = planner.destination;
   const std::string reason = reasonToSkipAmbient(frame_, to.direct() || to.inscatter != 0);
   if (optics::isLit(frame_.ambient) && !reason.empty()) out_.plan.skip(rowOf(Pass::Ambient).name, reason);
-  if (!reason.empty()) return false;
   PassPlanner passes = planner;
   passes.firstLight = true;
+  if (!reason.empty()) {
+    if (!optics::fogDimsBackground(frame_)) return false;
+    passes.draw(Pass::Transmittance);
+    return true;
+  }
   passes.variant.layers = layersFor(frame_.medium, {});
   passes.variant.composite = to.direct();
   passes.epipolarBlock = out_.plan.add(optics::ambientBlock(frame_, in_.textures.occlusion));

@@ -8,6 +8,7 @@ set(TYNDALL_GL_AVSM_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/CurveTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EyeCurvesFrameTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EyeCurvesTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/FogTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FragmentTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ParticleTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ShaftTest.cpp

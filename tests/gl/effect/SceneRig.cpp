@@ -278,7 +278,8 @@ reference::ImageAnswer SceneRig::reference() const {
   scene.lights = frame.lights;
   scene.shadows = images_;
   scene.curves = curves;
-  scene.eyeCurves = {eyeCurves, frame.eyeCurves.nearDistance, frame.eyeCurves.farDistance};
+  const EyeCurves& eye = frame.eyeCurves;
+  scene.eyeCurves = {eyeCurves, eye.nearDistance, eye.farDistance, {eye.albedo, eye.phase, eye.g}, eye.dimsBackground};
   scene.medium = frame.medium;
   scene.ambient = frame.ambient;
   scene.filter = frame.settings.shadowFilter;

@@ -95,7 +95,8 @@ void CaseRig::uploadMaps(std::size_t light) {
 
 void CaseRig::uploadEyeCurves() {
   const reference::CurveMap& map = made_.eyeCurves;
-  scene_.eyeCurves = {map, frame.eyeCurves.nearDistance, frame.eyeCurves.farDistance};
+  const EyeCurves& eye = frame.eyeCurves;
+  scene_.eyeCurves = {map, eye.nearDistance, eye.farDistance, {eye.albedo, eye.phase, eye.g}, eye.dimsBackground};
   if (map.size == 0) return;
   std::vector<GLuint> texels;
   for (const std::vector<glm::dvec2>& curve : map.curves)
