@@ -141,9 +141,6 @@ Status checkLookup(const Frame& frame) {
 
 Status checkEyeCurves(const Frame& frame) {
   const EyeCurves& eye = frame.eyeCurves;
-  if (eye.curves.texture == 0) return {};
-  if (Status s = checkNodes("eyeCurves.curves.nodes", eye.curves); !s) return s;
-  if (Status s = checkEyePlanes(frame.camera, eye.nearDistance, eye.farDistance); !s) return s;
   for (std::size_t c = 0; c < 3; ++c) {
     if (!(eye.albedo[c] >= 0 && eye.albedo[c] <= 1))
       return invalid("eyeCurves.albedo", textOf(eye.albedo), "must be 0 to 1");
@@ -153,7 +150,10 @@ Status checkEyeCurves(const Frame& frame) {
       return invalid("eyeCurves.albedo", textOf(eye.albedo),
                      "a medium of four constituents must scatter in each channel in which this does");
   }
-  return checkPhase("eyeCurves.", eye.phase, eye.g);
+  if (Status s = checkPhase("eyeCurves.", eye.phase, eye.g); !s) return s;
+  if (eye.curves.texture == 0) return {};
+  if (Status s = checkNodes("eyeCurves.curves.nodes", eye.curves); !s) return s;
+  return checkEyePlanes(frame.camera, eye.nearDistance, eye.farDistance);
 }
 
 Status checkView(const Frame& frame) {

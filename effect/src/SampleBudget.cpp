@@ -1,5 +1,7 @@
 #include "SampleBudget.h"
 
+#include "optics/Blocks.h"
+#include "optics/EyeLight.h"
 #include "optics/LightVolume.h"
 
 #include <algorithm>
@@ -47,8 +49,11 @@ std::vector<Settings> dealSamples(const Frame& frame, const std::vector<bool>& d
   std::vector<Settings> dealt(frame.lights.size(), settings);
   if (settings.sampleBudget == 0 || settings.technique != Technique::Epipolar) return dealt;
   std::vector<double> weights;
+  Medium medium = frame.medium;
+  const bool isFogAlone = optics::isFogLit(frame) && optics::scatteringOf(medium) == glm::dvec3(0);
+  if (isFogAlone) medium.farDistance = std::min(medium.farDistance, frame.eyeCurves.farDistance);
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
-    const optics::LightShare share = optics::shareOf(frame.lights[i], frame.camera, frame.medium);
+    const optics::LightShare share = optics::shareOf(frame.lights[i], frame.camera, medium);
     weights.push_back(drawn[i] ? std::max(share.brightness * std::sqrt(share.area), 1e-30) : 0);
   }
   const double most = static_cast<double>(settings.slices) * settings.samples;

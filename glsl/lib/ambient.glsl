@@ -18,17 +18,6 @@ vec3 ambientOf(int group, vec3 d) {
   return max(sum, vec3(0.0));
 }
 
-#if EYE_CURVES
-// So little of what is the same everywhere that it is not seen, for fog to be told in parts of.
-void addFloor(inout Airlight light, vec3 least) {
-#if HEIGHT
-  light.phases.even = max(light.phases.even, least);
-#else
-  light.phase = max(light.phase, least);
-#endif
-}
-#endif
-
 // Of the ray through a window position.
 Airlight ambientLightOf(vec2 position) {
   Ray ray = cameraRay(position);
@@ -45,7 +34,6 @@ Airlight ambientLightOf(vec2 position) {
 #if EYE_CURVES
   startEyePath(position, ray);
   eyePath.fog = ambientOf(3, ray.direction);
-  if (isFogLit != 0) addFloor(light, 1e-6 * eyePath.fog);
 #endif
   return light;
 }

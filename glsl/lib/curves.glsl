@@ -58,10 +58,18 @@ float linearDepthAt(ViewSegment segment, float s) {
 uniform sampler2D curveCells; // cells x rows: as cellEnds
 uniform sampler2D curveTree;  // nodes of 4, 16, ... cells behind one another x rows; w: the first moment of what passes
 
-float evenStretch(Airlight light, ViewSegment segment) { return evenLength(light, averageThreshold, segment.s0, segment.s1); }
+#define EVEN_STRETCH averageThreshold
 #else
-float evenStretch(Airlight light, ViewSegment segment) { return evenLength(light, 0.05, segment.s0, segment.s1); }
+#define EVEN_STRETCH 0.05
 #endif
+
+float evenStretch(Airlight light, ViewSegment segment) {
+  float even = evenLength(light, EVEN_STRETCH, segment.s0, segment.s1);
+#if EYE_CURVES
+  even = evenInFog(even);
+#endif
+  return even;
+}
 
 // The transmittance of a cell from one parameter to another.
 vec2 cellPassed(ViewSegment segment, int cell, float u0, float u1) {

@@ -6,6 +6,7 @@ struct EyePath {
   vec2 depth;           // of the curves at s: x + s y
   float begin, end;     // of what dims, along the ray; the end is not behind the begin if nothing does
   float passed;         // behind it
+  vec2 known;           // what fog leaves up to x is y
   vec3 fog;             // what fog scatters of a light whose direction is one, in the unit of what addAirlight() adds
 } eyePath;
 
@@ -25,6 +26,7 @@ void startEyePath(vec2 position, Ray ray) {
   eyePath.begin = max((ends.x - eyePath.depth.x) * inverse, 0.0);
   eyePath.end = (ends.y - eyePath.depth.x) * inverse;
   eyePath.passed = ends.z;
+  eyePath.known = vec2(-1.0, 1.0);
   if (isFogLit != 0) eyePath.begin = min(eyePath.begin, (1.0 - 1e-4) * eyePath.end); // what is at one depth has a place where it is lit
 #if LIGHT_KIND == 0
   vec3 sum = lightDirection + ray.direction, difference = lightDirection - ray.direction;
@@ -51,21 +53,28 @@ float eyeFogUpTo(float s) { return eyePassedUpTo(eyePath.place, eyePath.depth.x 
 
 // Of what is taken there, a unit of length: its mean and first moment, the latter from the mean transmittance by Simpson's rule.
 vec2 eyeTaken(float s0, float s1) {
-  float nearer = eyeFogUpTo(s0), farther = s1 < eyePath.end ? eyeFogUpTo(s1) : eyePath.passed, mean = (nearer + 4.0 * eyeFogUpTo(0.5 * (s0 + s1)) + farther) / 6.0;
+  float nearer = s0 == eyePath.known.x ? eyePath.known.y : eyeFogUpTo(s0), farther = s1 < eyePath.end ? eyeFogUpTo(s1) : eyePath.passed, mean = (nearer + 4.0 * eyeFogUpTo(0.5 * (s0 + s1)) + farther) / 6.0;
+  eyePath.known = vec2(s1, farther);
   float taken = max(nearer - farther, 0.0);
   return vec2(taken, clamp(2.0 * mean - nearer - farther, -0.5 * taken, 0.5 * taken)) / max(s1 - s0, 1e-30);
 }
 
-// What of it is scattered towards the eye, as a part of what the medium scatters there.
-vec3 fogOverMedium(Airlight light, float s) {
-#if LIGHT_KIND == 0
-  vec3 fog = eyePath.fog;
-#else
-  vec2 turn = turnAt(light, s);
-  vec3 fog = fogScattering * fogPhase(turn.x, turn.y);
+// The same light as fog scatters it, alone.
+Airlight ofFog(Airlight light) {
+#if LIGHT_KIND == 0 && HEIGHT
+  light.phases.even = eyePath.fog;
+  light.phases.first = Spectrum(0.0);
+#if HEIGHT > 2
+  light.phases.second = Spectrum(0.0);
 #endif
-  return fog / max(scatteredAt(light, s), vec3(1e-30));
+#elif LIGHT_KIND == 0
+  light.phase = eyePath.fog;
+#endif
+  return light;
 }
+
+// How long a stretch may be that is taken as a whole: not so long that it tells nothing of where in fog light is.
+float evenInFog(float len) { return isFogLit != 0 && eyePath.end > eyePath.begin ? min(len, (eyePath.end - eyePath.begin) / 64.0) : len; }
 
 const float kEyePieces = 256.0; // of what dims, at most: where light changes fast
 
@@ -90,15 +99,15 @@ void addSeen(Airlight light, float s0, float s1, Visibility mean, Visibility mom
     own.mean = clamp(own.mean, Visibility(0.0), Visibility(1.0)); // lines are no more than near to what is between 0 and 1, as are their halves
     Visibility most = 0.5 * min(own.mean, 1.0 - own.mean);
     own.moment = clamp(own.moment, -most, most);
-    Weight weight = mediumScatters * own.mean, weightMoment = mediumScatters * own.moment;
+    if (own.mean != Visibility(0.0)) addWeighted(light, from, to, mediumScatters * own.mean, mediumScatters * own.moment, sum);
     if (isFogLit != 0 && dims) {
       VisibilityLine lit = dimmedBy(line, eyeTaken(from, to));
-      vec3 fog = fogOverMedium(light, 0.5 * (from + to));
-      Visibility litMean = max(lit.mean, Visibility(0.0));
-      weight += fog * litMean;
-      weightMoment += fog * clamp(lit.moment, -0.5 * litMean, 0.5 * litMean);
+      lit.mean = max(lit.mean, Visibility(0.0));
+      lit.moment = clamp(lit.moment, -0.5 * lit.mean, 0.5 * lit.mean);
+      scattersInFog = true;
+      if (lit.mean != Visibility(0.0)) addWeighted(ofFog(light), from, to, Weight(lit.mean), Weight(lit.moment), sum);
+      scattersInFog = false;
     }
-    if (weight != Weight(0.0)) addWeighted(light, from, to, weight, weightMoment, sum);
     from = to;
   }
 }

@@ -22,9 +22,6 @@ Airlight airlightOf(Ray ray) {
   return Airlight(phases, heightsAlong(ray), dot(boundary.xyz, ray.origin) + boundary.w, dot(boundary.xyz, ray.direction));
 }
 
-// What is scattered at s of what addAirlight() integrates.
-Spectrum scatteredAt(Airlight light, float s) { return phaseOf(light.phases, densities(light.heights.begin + s * light.heights.slope)); }
-
 void litRange(Airlight light, inout float s0, inout float s1) {}
 
 // The light's way to the point s and on to the eye.

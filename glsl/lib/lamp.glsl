@@ -104,22 +104,6 @@ void litRange(Airlight light, inout float s0, inout float s1) {
 // are, so that panels of bounded length converge alike everywhere. P = r + t and N = r - t (P N = h^2) scale as
 // exp(+-x): a step along x multiplies P, h itself is not needed, and 1 - cos(theta) = P / r exactly.
 
-// 1 - cos and 1 + cos of the angle by which light is scattered at s towards the eye.
-vec2 turnAt(Airlight light, float s) {
-  float t = s - light.foot, r = sqrt(t * t + light.height2), P = t > 0.0 ? r + t : light.height2 / (r - t);
-  return vec2(P, light.height2 / P) / r;
-}
-
-// What is scattered there of what addAirlight() integrates.
-Spectrum scatteredAt(Airlight light, float s) {
-  vec2 turn = turnAt(light, s);
-#if HEIGHT
-  return phaseOf(phasesTowardsEye(turn.x, turn.y), densities(light.heights.begin + s * light.heights.slope));
-#else
-  return phaseTowardsEye(turn.x, turn.y);
-#endif
-}
-
 // Length of [t0, t1] in x: asinh of sinh(x1 - x0), in the form that does not cancel. len = t1 - t0, known better than that.
 float panelLength(float t0, float r0, float t1, float r1, float len, float height2) {
   float y = t0 * t1 > 0.0 ? len * ((t1 + t0) / (t1 * r0 + r1 * t0)) : (t1 * r0 - r1 * t0) / height2;

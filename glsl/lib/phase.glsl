@@ -22,8 +22,21 @@ Spectrum opticalDepthTo(Ray ray, float s) { return SPECTRUM(extinction) * s; }
 // Of the picture behind: T(s) of DESIGN 1.
 vec3 transmittanceTo(Ray ray, float s) { return dimsBackground != 0 ? vec3(exp(-opticalDepthTo(ray, s))) : vec3(1.0); }
 
+#if EYE_CURVES
+// Of what curves before the eye scatter, but for its norm.
+float fogPhase(float oneMinusCos, float onePlusCos) {
+  float cosine = 0.5 * (onePlusCos - oneMinusCos), r = inversesqrt(fogShape.x + fogShape.y * (fogShape.w > 0.0 ? oneMinusCos : onePlusCos));
+  return (1.0 + fogShape.z * cosine * cosine) * (r * r * r);
+}
+
+bool scattersInFog = false; // while light is added that it scatters
+#endif
+
 // Sum over constituents of sigma_k p_k over the sum of sigma_k, 1/sr. Takes 1 - cos and 1 + cos of the scattering angle.
 Spectrum phaseTowardsEye(float oneMinusCos, float onePlusCos) {
+#if EYE_CURVES && LIGHT_KIND != 0
+  if (scattersInFog) return fogScattering * fogPhase(oneMinusCos, onePlusCos);
+#endif
   float cosSquared = 0.25 * (onePlusCos - oneMinusCos) * (onePlusCos - oneMinusCos);
   Spectrum sum = Spectrum(0.0);
   for (int k = 0; k < constituentCount; ++k) {
@@ -50,6 +63,12 @@ Phases phasesTowardsEye(float oneMinusCos, float onePlusCos) {
   phases.even = phases.first = Spectrum(0.0);
 #if HEIGHT > 2
   phases.second = Spectrum(0.0);
+#endif
+#if EYE_CURVES && LIGHT_KIND != 0
+  if (scattersInFog) {
+    phases.even = fogScattering * fogPhase(oneMinusCos, onePlusCos);
+    return phases;
+  }
 #endif
   for (int k = 0; k < constituentCount; ++k) {
     vec4 shape = phaseShape[k];
@@ -88,14 +107,6 @@ Phases sharesOf(Phases phases) {
   phases.second *= all;
 #endif
   return phases;
-}
-#endif
-
-#if EYE_CURVES
-// Of what curves before the eye scatter, but for its norm.
-float fogPhase(float oneMinusCos, float onePlusCos) {
-  float cosine = 0.5 * (onePlusCos - oneMinusCos), r = inversesqrt(fogShape.x + fogShape.y * (fogShape.w > 0.0 ? oneMinusCos : onePlusCos));
-  return (1.0 + fogShape.z * cosine * cosine) * (r * r * r);
 }
 #endif
 

@@ -15,9 +15,6 @@ Airlight airlightOf(Ray ray) {
   return Airlight(phase, dot(boundary.xyz, ray.origin) + boundary.w, dot(boundary.xyz, ray.direction));
 }
 
-// What is scattered at s of what addAirlight() integrates.
-Spectrum scatteredAt(Airlight light, float s) { return light.phase; }
-
 void litRange(Airlight light, inout float s0, inout float s1) {}
 
 // A length from s on over which the airlight changes by about a twentieth in any channel, but more and more where it is less than where it

@@ -63,7 +63,11 @@ void startRow(Airlight light, ViewSegment segment, int slice, out RowLine line, 
   line.inverse = line.last > walk.index ? 1.0 / (end - line.begin) : 0.0;
   // The longest texel of a projection that may be a perspective one.
   float texel = (segment.s1 - segment.s0) * line.inverse * max(segment.weight, 1.0 / segment.weight);
-  line.evenLevel = min(int(floor(0.5 * log2(clamp(evenLength(light, averageThreshold, segment.s0, segment.s1) / max(texel, 1e-30), 1.0, 1e9)))), kMostEven);
+  float even = evenLength(light, averageThreshold, segment.s0, segment.s1);
+#if EYE_CURVES
+  even = evenInFog(even);
+#endif
+  line.evenLevel = min(int(floor(0.5 * log2(clamp(even / max(texel, 1e-30), 1.0, 1e9)))), kMostEven);
 #if CURVES && defined(ROW_CURVES)
   // Nor longer than a cell of the curves, from one to the next of which they may let all or nothing through: in texels of the row.
   vec2 cells = vec2(shadowViews[segment.view].size) / (float(curvesSize) * max(abs(row.zw), vec2(1e-3)));

@@ -9,8 +9,7 @@ uniform int sourceLevel;
 
 const int kBrick = 4;
 
-// Negative ones and what is no number count as 0.
-float cleaned(float value) { return value > 0.0 ? min(value, 1e18) : 0.0; }
+#include "lib/avsmDensity.glsl"
 
 void main() {
   ivec3 node = ivec3(gl_GlobalInvocationID);
@@ -25,7 +24,7 @@ void main() {
     for (int y = low.y; y <= high.y; ++y)
       for (int x = low.x; x <= high.x; ++x) {
 #if FINEST
-        vec2 own = vec2(cleaned(texelFetch(source, ivec3(x, y, z), 0).r));
+        vec2 own = vec2(cleanedDensity(texelFetch(source, ivec3(x, y, z), 0).r));
 #else
         vec2 own = texelFetch(source, ivec3(x, y, z), sourceLevel).rg;
 #endif

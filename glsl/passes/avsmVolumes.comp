@@ -4,6 +4,7 @@
 // Reads the grid's density (R8, R16, R16F, R32F) and ranges (RG32F). Writes into the captured lists or, STREAMED 1, inserts into the curves.
 #include "lib/avsmSegment.glsl"
 #include "lib/avsmRay.glsl"
+#include "lib/avsmDensity.glsl"
 #if STREAMED
 #define TYNDALL_CURVE_ROOM (TYNDALL_CURVE_NODES + 2)
 #define CURVES_ACCESS
@@ -31,12 +32,14 @@ const int kBrick = 4;
 const float kTolerance = 1e-3; // of the transmittance: what a segment's may be off by within it
 const float kOpaque = 16.0;    // optical depth from which on nothing passes,
 const float kMostDepth = 1e4;  // and more than which no step has
+const float kLongest = 2.0;    // of a segment: of a longer one curves tell too little
 const float kFadeSteps = 12.0; // over a fade, at least,
 const float kMostSteps = 2048.0; // and over all of a volume, if those were more
 const float kGauss = 0.28867513459481287; // of two nodes, from the middle, in steps
 
 ivec3 texel;
-vec3 start, along;       // the texel's ray in the volume's coordinates, by depth
+vec3 start, along;       // the texel's ray in the volume's coordinates, by depth from where it enters
+float entered;           // depth there
 float extinctionOfDepth; // where density is 1, a unit of depth
 
 // The segment under way: from one depth to another an optical depth, and the slopes from its begin that come near enough to what it
@@ -49,9 +52,9 @@ void endSegment() {
   if (opticalDepth > 0.0) {
 #if STREAMED
     vec3 segment;
-    if (tyndallSegment(from, to, passed, segment)) tyndallInsertSegment(segment);
+    if (tyndallSegment(entered + from, entered + to, passed, segment)) tyndallInsertSegment(segment);
 #else
-    tyndallCapture(texel, from, to, passed);
+    tyndallCapture(texel, entered + from, entered + to, passed);
 #endif
   }
   before += opticalDepth;
@@ -61,10 +64,15 @@ void endSegment() {
   mostSlope = 1e37;
 }
 
-// A step up to a depth.
+// A step up to a depth, or to where nothing passes any more: a segment is as even as its medium only while that can be told.
 void addStep(float end, float own) {
+  float left = kOpaque + 0.5 - before - opticalDepth;
+  if (own > left) {
+    end = to + (end - to) * (left / own);
+    own = left;
+  }
   float sum = opticalDepth + own, len = max(end - from, 1e-9), slope = sum / len;
-  if (opticalDepth > 0.0 && (slope < leastSlope || slope > mostSlope)) {
+  if (opticalDepth > 0.0 && (slope < leastSlope || slope > mostSlope || sum > kLongest)) {
     endSegment();
     sum = own;
     len = max(end - from, 1e-9);
@@ -74,14 +82,13 @@ void addStep(float end, float own) {
   mostSlope = min(mostSlope, (sum + tolerance) / len);
   opticalDepth = sum;
   to = end;
-  if (sum == 0.0) from = end;
+  if (sum == 0.0) {
+    from = end;
+    mostSlope = 1e37;
+  }
 }
 
-// Negative ones and what is no number count as 0.
-float texelDensity(ivec3 at) {
-  float value = texelFetch(density, at, 0).r;
-  return value > 0.0 ? min(value, 1e18) : 0.0;
-}
+float texelDensity(ivec3 at) { return cleanedDensity(texelFetch(density, at, 0).r); }
 
 // Texels at the corners of a cell, and where it begins; of a grid all whose texels are 1 where there is none.
 struct Cell {
@@ -145,40 +152,67 @@ int partsOf(float len) {
   return int(clamp(ceil(sqrt(off / (kTolerance * exp(before + opticalDepth)))), 1.0, 32.0));
 }
 
-// A stretch from s on: up to where, and its density if that is even, else -1.
-vec2 nextStretch(float s, float end, float longest) {
-  if (gridSize.x == 0) return vec2(end, shape.y == 0.0 ? 1.0 : -1.0);
-  float inside = s + kNudge * longest; // a little behind the border where the last one ended
-  ivec3 brick = clamp(ivec3(floor((gridStart + inside * gridAlong + 0.5) / float(kBrick))), ivec3(0), brickCount.xyz - 1);
+// A stretch from s on: up to where, and its density if that is even, else -1. fades: it lies where the volume fades in.
+vec2 nextStretch(float s, float end, float longest, bool fades) {
+  if (gridSize.x == 0) return vec2(end, fades ? -1.0 : 1.0);
+  // Behind the border where the last one ended, by what rounding may leave, along each axis by itself.
+  vec3 inside = gridStart + s * gridAlong + kNudge * sign(gridAlong);
+  ivec3 brick = clamp(ivec3(floor((inside + 0.5) / float(kBrick))), ivec3(0), brickCount.xyz - 1);
   float even = -1.0;
   int level = gridSize.w;
   while (level > 0 && even < 0.0) {
     --level;
     vec2 range = texelFetch(ranges, brick >> level, level).rg;
-    if (range.x == range.y && (range.y == 0.0 || shape.y == 0.0)) even = range.y;
+    if (range.x == range.y && (range.y == 0.0 || !fades)) even = range.y;
   }
   vec3 low = vec3((brick >> level) << level) * float(kBrick), high = low + float(kBrick << level);
   float exit = firstOf(mix(low, high, greaterThan(gridAlong, vec3(0.0))) - 0.5);
-  return vec2(min(max(exit, inside), end), even);
+  return vec2(min(max(exit, s + kNudge * longest), end), even);
 }
 
-void march(float begin, float end) {
+// Where a ray is in the box or the sphere of a size; empty if y <= x.
+vec2 interval(float size) {
+  if (shape.x > 0.0) {
+    float square = dot(along, along), middle = -dot(start, along) / max(square, 1e-37);
+    vec3 beside = start + middle * along;
+    float halfChord = sqrt(max(size * size - dot(beside, beside), 0.0) / max(square, 1e-37));
+    return vec2(middle - halfChord, middle + halfChord);
+  }
+  bvec3 still = equal(along, vec3(0.0));
+  vec3 inverse = 1.0 / mix(along, vec3(1.0), still);
+  vec3 a = (-size - start) * inverse, b = (size - start) * inverse;
+  bvec3 outside = greaterThan(abs(start), vec3(size));
+  vec3 low = mix(min(a, b), mix(vec3(-1e37), vec3(1e37), outside), still), high = mix(max(a, b), vec3(1e37), still);
+  return vec2(max(low.x, max(low.y, low.z)), min(high.x, min(high.y, high.z)));
+}
+
+// From where the ray enters, up to a depth from there. nearPlane: where the map begins; what lies before it dims light there.
+void march(float end, float nearPlane) {
   float longest = longestStep(), fadeStep = shape.y > 0.0 ? shape.y / (kFadeSteps * max(max(abs(along.x), max(abs(along.y), abs(along.z))), 1e-30)) : 1e37;
-  fadeStep = max(fadeStep, (end - begin) / kMostSteps);
-  from = to = begin;
+  fadeStep = max(fadeStep, end / kMostSteps);
+  vec2 even = shape.y > 0.0 ? interval(1.0 - shape.y) : vec2(0.0, end); // where nothing fades
+  if (!(even.y > even.x)) even = vec2(end);
+  from = to = 0.0;
   opticalDepth = before = leastSlope = 0.0;
   mostSlope = 1e37;
-  float s = begin;
+  float s = 0.0;
   while (s < end && before + opticalDepth < kOpaque) {
-    vec2 stretch = nextStretch(s, end, longest);
+    float first = s;
+    bool fades = s < even.x || s >= even.y;
+    float most = s < even.x ? min(even.x, end) : s < even.y ? min(even.y, end) : end;
+    if (s < nearPlane) most = min(most, nearPlane);
+    vec2 stretch = nextStretch(s, most, longest, fades);
     if (stretch.y == 0.0) {
       endSegment();
       from = to = stretch.x;
     } else if (stretch.y > 0.0) {
-      addStep(stretch.x, min(stretch.y * extinctionOfDepth * (stretch.x - s), kMostDepth));
+      float own = min(stretch.y * extinctionOfDepth * (stretch.x - s), kMostDepth), seen = min(own, kOpaque + 0.5);
+      float len = (stretch.x - s) * (seen / own), parts = ceil(seen / kLongest);
+      for (float i = 1.0; i < parts; ++i) addStep(s + len * (i / parts), seen / parts);
+      addStep(seen < own ? s + len : stretch.x, seen / parts);
     } else {
       while (s < stretch.x) {
-        float next = stepEnd(s, stretch.x, longest, fadeStep);
+        float next = stepEnd(s, stretch.x, longest, fades ? fadeStep : 1e37);
         enterCell(0.5 * (s + next));
         int parts = partsOf(next - s);
         float own = (next - s) / float(parts), middle = s + 0.5 * own;
@@ -190,25 +224,10 @@ void march(float begin, float end) {
         s = next > s ? next : stretch.x;
       }
     }
-    s = stretch.x;
+    if (first < nearPlane && stretch.x >= nearPlane) endSegment();
+    s = stretch.x > first ? stretch.x : end;
   }
   endSegment();
-}
-
-// Where the ray is in the box or the sphere; empty if y <= x.
-vec2 interval() {
-  if (shape.x > 0.0) {
-    float square = dot(along, along), middle = -dot(start, along) / max(square, 1e-37);
-    vec3 beside = start + middle * along;
-    float halfChord = sqrt(max(1.0 - dot(beside, beside), 0.0) / max(square, 1e-37));
-    return vec2(middle - halfChord, middle + halfChord);
-  }
-  bvec3 still = equal(along, vec3(0.0));
-  vec3 inverse = 1.0 / mix(along, vec3(1.0), still);
-  vec3 a = (-1.0 - start) * inverse, b = (1.0 - start) * inverse;
-  bvec3 outside = greaterThan(abs(start), vec3(1.0));
-  vec3 low = mix(min(a, b), mix(vec3(-1e37), vec3(1e37), outside), still), high = mix(max(a, b), vec3(1e37), still);
-  return vec2(max(low.x, max(low.y, low.z)), min(high.x, min(high.y, high.z)));
 }
 
 void main() {
@@ -219,9 +238,11 @@ void main() {
     start[i] = dot(volumeFromWorld[i].xyz, ray.start);
     along[i] = dot(volumeFromWorld[i].xyz, ray.along);
   }
-  vec2 inside = interval();
+  vec2 inside = interval(1.0);
   inside = vec2(max(inside.x, ray.behindLight), min(inside.y, 1.0));
   if (!(inside.y > inside.x)) return;
+  entered = inside.x;
+  start += entered * along;
   extinctionOfDepth = shape.z * length(ray.along);
   gridStart = (0.5 * start + 0.5) * vec3(gridSize.xyz) - 0.5;
   gridAlong = 0.5 * along * vec3(gridSize.xyz);
@@ -230,7 +251,7 @@ void main() {
   for (int i = 0; i < kTyndallTexelsOfCurve; ++i) tyndallTakeTexel(kTyndallNodesOfTexel * i, imageLoad(curveImage, placeOf(texel, i)));
   tyndallFindUsed();
 #endif
-  march(inside.x, inside.y);
+  march(inside.y - inside.x, -inside.x);
 #if STREAMED
   tyndallPadCurve();
   storeCurve(texel);

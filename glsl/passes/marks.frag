@@ -34,7 +34,7 @@ struct Open {
 Open openNear(int slice, int index) {
 #if LIGHT_KIND == 0
   float mean = sliceTarget > 0.0 ? texelFetch(meanLight, ivec2(0), 0).r : 0.0;
-  if (mean > 0.0 && boundary == vec4(0.0) && layerCount == 0) {
+  if (mean > 0.0 && boundary == vec4(0.0) && layerCount == 0 && isFogLit == 0) {
     Ray ray = cameraRay(samplePosition(sliceEnds(slice), sliceSamples(slice), float(index)));
     return Open(true, min(brightestOf(radianceUnit(ray)) / max(min(kTargets * sliceTarget, kMost) * mean, 1e-37), 1e37));
   }

@@ -22,8 +22,14 @@ layout(location = 1) out vec4 outTransmittance;
 void main() {
   vec3 transmittance = vec3(0.0);
   Ray ray = cameraRay(unjittered(gl_FragCoord.xy));
-  for (int k = 0; k < depthSampleCount; ++k)
-    transmittance += eyeTransmittance(unjittered(gl_FragCoord.xy), ray, sampleEndAt(k)) * transmittanceTo(ray, sampleEndAt(k)) / float(depthSampleCount);
+  float last = -1.0; // most of a pixel's samples end where one before them does
+  vec3 passed = vec3(0.0);
+  for (int k = 0; k < depthSampleCount; ++k) {
+    float end = sampleEndAt(k);
+    if (end != last) passed = eyeTransmittance(unjittered(gl_FragCoord.xy), ray, end) * transmittanceTo(ray, end);
+    last = end;
+    transmittance += passed / float(depthSampleCount);
+  }
   outInscatter = vec4(0.0);
   outTransmittance = vec4(transmittance, 1.0);
 }

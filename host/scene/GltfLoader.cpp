@@ -16,7 +16,7 @@ namespace host {
 
 namespace {
 
-/// Scene extras: {"tyndall": {"medium": {...}, "ambient": {...}, "sky": [r, g, b]}}.
+/// Scene extras: {"tyndall": {"medium": {...}, "ambient": {...}, "fog": {...}, "sky": [r, g, b]}}.
 void readTyndallExtras(gltf::Document& document, Scene& scene) {
   const int shown = document.shownScene();
   if (shown < 0) return;
@@ -34,6 +34,8 @@ void readTyndallExtras(gltf::Document& document, Scene& scene) {
       scene.medium = parseMedium(value, inFile + ".medium");
     } else if (key == "ambient") {
       scene.ambient = parseAmbient(value, inFile + ".ambient");
+    } else if (key == "fog") {
+      scene.fogScattering = parseFogScattering(value, inFile + ".fog");
     } else if (key == "sky") {
       const auto isRadiance = [](const nlohmann::json& v) {
         return v.is_number() && v.get<float>() >= 0 && std::isfinite(v.get<float>());
@@ -60,6 +62,7 @@ Scene convert(gltf::Document& document, const LoadWatch& watch) {
   const std::vector<int> sceneNodes = gltf::convertNodes(document, scene);
   gltf::convertAnimations(document, sceneNodes, scene);
   gltf::convertSmoke(document, sceneNodes, scene);
+  gltf::convertFog(document, sceneNodes, scene);
   readTyndallExtras(document, scene);
   scene.files = gltf::filesOf(document);
   scene.notes = document.notes();

@@ -116,6 +116,14 @@ void parseLayers(const json& value, tyndall::Medium& medium, const std::string& 
   medium.up = parseUp(value["up"], where + ".up");
 }
 
+float parseAsymmetry(const json& value, tyndall::Phase phase, const std::string& where) {
+  const bool hasAsymmetry = phase == tyndall::Phase::HenyeyGreenstein || phase == tyndall::Phase::CornetteShanks;
+  if (!hasAsymmetry) refuse(where, "only henyey-greenstein and cornette-shanks have an asymmetry");
+  const float asymmetry = value.is_number() ? value.get<float>() : 1.0F;
+  if (!(std::abs(asymmetry) < 1)) refuse(where, value.dump(-1, ' ', true) + " must be a number between -1 and 1");
+  return asymmetry;
+}
+
 tyndall::Constituent parseConstituent(const json& value, std::size_t layers, const std::string& where) {
   requireObject(value, where, {"scattering", "phase", "g", "layer"});
   if (!value.contains("scattering")) refuse(where + ".scattering", "is missing");
@@ -123,14 +131,7 @@ tyndall::Constituent parseConstituent(const json& value, std::size_t layers, con
   constituent.scattering = parseRgb(value["scattering"], where + ".scattering");
   if (value.contains("phase")) constituent.phase = parsePhase(value["phase"], where + ".phase");
   if (value.contains("layer")) constituent.layer = parseLayer(value["layer"], layers, where + ".layer");
-  if (!value.contains("g")) return constituent;
-  const bool hasAsymmetry =
-      constituent.phase == tyndall::Phase::HenyeyGreenstein || constituent.phase == tyndall::Phase::CornetteShanks;
-  if (!hasAsymmetry) refuse(where + ".g", "only henyey-greenstein and cornette-shanks have an asymmetry");
-  const json& g = value["g"];
-  const float asymmetry = g.is_number() ? g.get<float>() : 1.0F;
-  if (!(std::abs(asymmetry) < 1)) refuse(where + ".g", g.dump(-1, ' ', true) + " must be a number between -1 and 1");
-  constituent.g = asymmetry;
+  if (value.contains("g")) constituent.g = parseAsymmetry(value["g"], constituent.phase, where + ".g");
   return constituent;
 }
 
@@ -191,6 +192,20 @@ tyndall::Medium parseMedium(const json& value, const std::string& where) {
     medium.dimsBackground = value["dimsBackground"].get<bool>();
   }
   return medium;
+}
+
+FogScattering parseFogScattering(const json& value, const std::string& where) {
+  requireObject(value, where, {"albedo", "phase", "g"});
+  FogScattering fog;
+  if (value.contains("albedo")) fog.albedo = parseRgb(value["albedo"], where + ".albedo");
+  for (const float share : fog.albedo)
+    if (share > 1) refuse(where + ".albedo", "must be 3 numbers from 0 to 1");
+  if (value.contains("phase")) {
+    fog.phase = parsePhase(value["phase"], where + ".phase");
+    if (fog.phase != tyndall::Phase::HenyeyGreenstein && fog.phase != tyndall::Phase::CornetteShanks) fog.g = 0;
+  }
+  if (value.contains("g")) fog.g = parseAsymmetry(value["g"], fog.phase, where + ".g");
+  return fog;
 }
 
 tyndall::Ambient parseAmbient(const json& value, const std::string& where) {

@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <scene/Scene.h>
 #include <string>
 #include <tyndall/tyndall.h>
 
@@ -21,6 +22,10 @@ tyndall::Medium parseMedium(const nlohmann::json& json, const std::string& where
 
 /// Likewise, without an occlusion texture.
 tyndall::Ambient parseAmbient(const nlohmann::json& json, const std::string& where);
+
+/// What banks of fog scatter: {"albedo": [r, g, b], "phase": "henyey-greenstein", "g": 0.6}, each with its default, g
+/// as of a constituent. Likewise.
+FogScattering parseFogScattering(const nlohmann::json& json, const std::string& where);
 
 /// Reads a JSON file; throws Error, which names the file, if it cannot be read or is not a medium, or not ambient
 /// light.

@@ -116,6 +116,25 @@ struct SmokeEmitter {
   } ///< seconds; the smoke of a node that does not move repeats after it
 };
 
+/// A box or a sphere of fog, from extras.tyndall.fog of a node, whose transform places the cube, or the unit sphere,
+/// from -1 to 1. It stops at its border, whatever stands within.
+struct FogBank {
+  int node = 0;            ///< index into Scene::nodes
+  bool sphere = false;     ///< else a box
+  double extinction = 0.1; ///< where it is densest, 1/world unit, >= 0
+  double fade = 0.5;       ///< share of the half extent over which it thins out to its border, 0 to 1
+  glm::ivec3 billows{0};   ///< by axis, each 1 to 32; all 0: it is even
+  double clear = 0.3;      ///< share of it without fog where it has billows, 0 to 1
+  int seed = 0;            ///< of the billows, 0 to 2^31 - 1
+};
+
+/// What all banks scatter, from extras.tyndall.fog of the scene.
+struct FogScattering {
+  tyndall::Rgb albedo = {0.95F, 0.95F, 0.95F}; ///< share of the light that fog takes, 0 to 1
+  tyndall::Phase phase = tyndall::Phase::HenyeyGreenstein;
+  float g = 0.6F;
+};
+
 enum class AnimationPath { Translation, Rotation, Scale };
 enum class Interpolation { Step, Linear, CubicSpline };
 
@@ -136,6 +155,8 @@ struct Scene {
   std::vector<Camera> cameras;
   std::vector<Light> lights;
   std::vector<SmokeEmitter> smoke;
+  std::vector<FogBank> fog; ///< at most 8; not in a scene that has smoke
+  FogScattering fogScattering;
   std::vector<AnimationChannel> animation;  ///< all animations of the file, played at once
   std::optional<tyndall::Medium> medium;    ///< extras.tyndall.medium of the file's scene
   std::optional<tyndall::Ambient> ambient;  ///< extras.tyndall.ambient: light that the medium scatters

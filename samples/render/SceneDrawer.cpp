@@ -7,6 +7,7 @@
 #include <gl/Pause.h>
 #include <scene/Advice.h>
 #include <scene/Error.h>
+#include <scene/Fog.h>
 #include <scene/MovedObjects.h>
 #include <scene/Projection.h>
 #include <scene/ShadowViews.h>
@@ -95,10 +96,13 @@ SceneDrawer::SceneDrawer(host::Scene scene, const host::Context& context, const 
                          host::Notes& notes)
     : context_(context), scene_(std::move(scene)), boxes_(host::boxesOf(scene_)),
       renderer_(std::make_unique<host::SceneRenderer>(scene_)), meshBounds_(host::meshBounds(scene_)) {
+  if (!scene_.fog.empty()) fog_.emplace(scene_);
   makeVolumeShadows(state, notes);
 }
 
-bool SceneDrawer::hasVolumes() const { return !scene_.smoke.empty() || host::hasStrands(scene_); }
+bool SceneDrawer::hasVolumes() const {
+  return !scene_.smoke.empty() || !scene_.fog.empty() || host::hasStrands(scene_);
+}
 
 // Again where the state has others.
 void SceneDrawer::makeVolumeShadows(const settings::State& state, host::Notes& notes) {
@@ -116,9 +120,10 @@ void SceneDrawer::makeVolumeShadows(const settings::State& state, host::Notes& n
         std::make_unique<VolumeShadows>(context_.loader(), timingFor(context_), state.avsmSize, state.avsmNodes);
     return;
   }
-  notes.push_back("smoke and strands are drawn without their shadows: adaptive volumetric shadow maps need OpenGL "
-                  "4.3, and the context has " +
-                  std::to_string(version / 10) + "." + std::to_string(version % 10));
+  notes.push_back(
+      "smoke and strands are drawn without their shadows, and fog is not: adaptive volumetric shadow maps need OpenGL "
+      "4.3, and the context has " +
+      std::to_string(version / 10) + "." + std::to_string(version % 10));
 }
 
 tyndall::Medium SceneDrawer::mediumOf(const settings::State& state, host::Notes& notes) const {
@@ -270,6 +275,7 @@ void SceneDrawer::drawVolumes(const settings::State& state, const Moment& moment
     volumesKey_.clear();
     surfacesKey_.clear();
     setVolumes(state, moment, worldFromNode);
+    if (volumeShadows_ && fog_) volumeShadows_->setFog(fog_->at(worldFromNode));
     if (volumeShadows_) volumeShadows_->update(*renderer_, frame.lights);
     curves_.clear();
     for (const tyndall::Light& light : frame.lights)
@@ -329,13 +335,17 @@ std::array<double, 2> reachOf(const host::Bounds& box, const tyndall::Camera& ca
 
 } // namespace
 
-// What smoke leaves of the light behind it, between the planes that hold all of it.
-void SceneDrawer::seeThroughSmoke(const settings::State& state, const Moment& moment, const host::RenderTargets& image,
-                                  tyndall::Frame& frame) {
+// What smoke and fog leave of the light behind them, between the planes that hold all of them; and fog scatters.
+void SceneDrawer::seeThroughVolumes(const settings::State& state, const Moment& moment,
+                                    const std::vector<glm::dmat4>& worldFromNode, const host::RenderTargets& image,
+                                    tyndall::Frame& frame) {
   frame.eyeCurves = {};
   double near = tyndall::kInfinity, far = 0;
-  for (const host::SmokeEmitter& emitter : scene_.smoke) {
-    const auto reach = reachOf(host::smokeBounds(scene_, emitter, moment.seconds), frame.camera, state.reversedDepth);
+  std::vector<host::Bounds> boxes = host::fogBounds(scene_, worldFromNode);
+  for (const host::SmokeEmitter& emitter : scene_.smoke)
+    boxes.push_back(host::smokeBounds(scene_, emitter, moment.seconds));
+  for (const host::Bounds& box : boxes) {
+    const auto reach = reachOf(box, frame.camera, state.reversedDepth);
     near = std::min(near, reach[0]);
     far = std::max(far, reach[1]);
   }
@@ -355,6 +365,12 @@ void SceneDrawer::seeThroughSmoke(const settings::State& state, const Moment& mo
     eyeKey_ = std::move(key);
   }
   frame.eyeCurves = eyeCurves_;
+  if (scene_.fog.empty()) return;
+  const host::FogScattering& fog = scene_.fogScattering;
+  frame.eyeCurves.albedo = fog.albedo;
+  frame.eyeCurves.phase = fog.phase;
+  frame.eyeCurves.g = fog.g;
+  frame.eyeCurves.dimsBackground = true;
 }
 
 // Smoke moves in every frame: all of the box around it may dim the light anew.
@@ -380,7 +396,7 @@ void SceneDrawer::draw(const settings::State& state, const Moment& moment, host:
   fitViews(state, moment, worldFromNode, frame, notes);
   host::Pause::take();
   drawMaps(state, moment, worldFromNode, frame);
-  seeThroughSmoke(state, moment, surfaces, frame);
+  seeThroughVolumes(state, moment, worldFromNode, surfaces, frame);
   jitterCamera(state, moment.jitterPlace, frame.camera);
   const bool isFirst = pose_.empty();
   if (isFirst) addOnce(notes, host::adviceOn(scene_, worldFromNode, frame.camera));

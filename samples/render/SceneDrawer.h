@@ -5,10 +5,12 @@
 
 #include <cstdint>
 #include <gl/Context.h>
+#include <gl/FogVolumes.h>
 #include <gl/RenderTargets.h>
 #include <gl/SceneRenderer.h>
 #include <gl/ShadowLayout.h>
 #include <memory>
+#include <optional>
 #include <scene/Scene.h>
 #include <scene/View.h>
 #include <settings/State.h>
@@ -60,7 +62,7 @@ public:
 
   const host::Scene& scene() const { return scene_; }
   const host::Scene& boxes() const { return boxes_; }           ///< host::boxesOf(scene())
-  bool hasVolumes() const;                                      ///< smoke or strands
+  bool hasVolumes() const;                                      ///< smoke, fog or strands
   const std::vector<glm::dmat4>& pose() const { return pose_; } ///< of the last draw(); empty before the first
   const VolumeShadows* volumeShadows() const { return volumeShadows_.get(); } ///< null: there are none
 
@@ -93,8 +95,9 @@ private:
                     const tyndall::Frame& frame);
   void layOutMaps(const settings::State& state, tyndall::Frame& frame);
   void makeVolumeShadows(const settings::State& state, host::Notes& notes);
-  void seeThroughSmoke(const settings::State& state, const Moment& moment, const host::RenderTargets& image,
-                       tyndall::Frame& frame);
+  void seeThroughVolumes(const settings::State& state, const Moment& moment,
+                         const std::vector<glm::dmat4>& worldFromNode, const host::RenderTargets& image,
+                         tyndall::Frame& frame);
   std::vector<tyndall::MovingObject> movedObjects(const std::vector<glm::dmat4>& worldFromNode, double seconds) const;
 
   /// Of smoke's shadows, as State has them.
@@ -116,7 +119,8 @@ private:
   std::vector<tyndall::AvsmCurves> curves_; ///< of its lights
   std::vector<double> eyeKey_;              ///< what eyeCurves_ was made of
   tyndall::EyeCurves eyeCurves_;
-  std::unique_ptr<VolumeShadows> volumeShadows_; ///< none without smoke and strands, or where they cast no shadow
+  std::optional<host::FogVolumes> fog_;          ///< of a scene that has banks of it
+  std::unique_ptr<VolumeShadows> volumeShadows_; ///< none without smoke, fog and strands, or where they cast no shadow
   Avsm avsm_;                                    ///< that they were made with
   std::vector<host::Bounds> meshBounds_;
   std::vector<glm::dmat4> pose_;

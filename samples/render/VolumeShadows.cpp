@@ -9,7 +9,7 @@ namespace render {
 namespace {
 
 void require(const tyndall::Status& status) {
-  if (!status) throw host::Error("shadows of smoke and strands: " + status.message);
+  if (!status) throw host::Error("shadows of smoke, fog and strands: " + status.message);
 }
 
 } // namespace
@@ -20,7 +20,7 @@ void VolumeShadows::update(host::SceneRenderer& renderer, std::vector<tyndall::L
     tyndall::Light& light = lights[i];
     create(maps_[i], static_cast<int>(light.shadow.views.size()));
     if (!maps_[i].avsm) continue;
-    capture(maps_[i], [&] { renderer.captureVolumes(light, size_); });
+    capture(maps_[i], light, [&] { renderer.captureVolumes(light, size_); });
     light.curves = maps_[i].avsm->curves();
   }
 }
@@ -30,7 +30,7 @@ tyndall::EyeCurves VolumeShadows::before(host::SceneRenderer& renderer, const ty
   tyndall::Light eye;
   require(tyndall::eyeLight(camera, image, nearDistance, farDistance, eye));
   create(eye_, 1);
-  capture(eye_, [&] { renderer.captureSmoke(eye, size_); });
+  capture(eye_, eye, [&] { renderer.captureSmoke(eye, size_); });
   return {eye_.avsm->curves(), nearDistance, farDistance};
 }
 
@@ -51,12 +51,13 @@ void VolumeShadows::create(Map& map, int layers) const {
 }
 
 // Lists grow to what the frame before needed: what is lost for want of room is captured once more.
-void VolumeShadows::capture(Map& map, const std::function<void()>& draw) const {
+void VolumeShadows::capture(Map& map, const tyndall::Light& light, const std::function<void()>& draw) const {
   for (int attempt = 0; attempt < 2; ++attempt) {
     require(map.avsm->begin());
     host::gl().Finish();
     const auto start = std::chrono::steady_clock::now();
     draw();
+    if (!fog_.empty()) require(map.avsm->drawVolumes(light, fog_));
     host::gl().Finish();
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
     map.captureMilliseconds = time.count();

@@ -1,4 +1,4 @@
-// Adaptive volumetric shadow maps of a frame's lights, and of its eye: what smoke and strands let through.
+// Adaptive volumetric shadow maps of a frame's lights, and of its eye: what smoke, fog and strands let through.
 #pragma once
 
 #include <functional>
@@ -22,11 +22,15 @@ public:
   VolumeShadows(tyndall::GlLoader loader, tyndall::PassTiming timing, int size, int nodes)
       : loader_(loader), timing_(timing), size_(size), nodes_(nodes) {}
 
-  /// Captures the renderer's smoke and strands from each light with shadow views, and sets its curves. Throws
-  /// host::Error.
+  /// Banks of fog that are captured from now on, beside the renderer's smoke and strands.
+  void setFog(std::vector<tyndall::AvsmVolume> fog) { fog_ = std::move(fog); }
+
+  /// Captures the renderer's smoke and strands, and the fog, from each light with shadow views, and sets its curves.
+  /// Throws host::Error.
   void update(host::SceneRenderer& renderer, std::vector<tyndall::Light>& lights);
 
-  /// Captures the renderer's smoke before a camera, between two planes (tyndall::eyeLight()). Throws host::Error.
+  /// Captures the renderer's smoke, and the fog, before a camera, between two planes (tyndall::eyeLight()). Throws
+  /// host::Error.
   tyndall::EyeCurves before(host::SceneRenderer& renderer, const tyndall::Camera& camera,
                             const tyndall::Rectangle& image, double nearDistance, double farDistance);
 
@@ -44,7 +48,7 @@ private:
   };
 
   void create(Map& map, int layers) const;
-  void capture(Map& map, const std::function<void()>& draw) const;
+  void capture(Map& map, const tyndall::Light& light, const std::function<void()>& draw) const;
 
   tyndall::GlLoader loader_;
   tyndall::PassTiming timing_;
@@ -52,6 +56,7 @@ private:
   int nodes_;
   std::vector<Map> maps_;
   Map eye_;
+  std::vector<tyndall::AvsmVolume> fog_;
 };
 
 } // namespace render

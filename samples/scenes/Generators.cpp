@@ -19,6 +19,7 @@ const std::map<std::string, std::function<Scene()>>& generators() {
       {"hair", makeHair},
       {"censer", makeCenser},
       {"valley", makeValley},
+      {"harbour", makeHarbour},
   };
   return kGenerators;
 }

@@ -210,6 +210,19 @@ void appendSmoke(Document& document, const Smoke& smoke) {
       {{"name", smoke.name}, {"translation", listOf(smoke.position)}, {"extras", {{"tyndall", {{"smoke", fields}}}}}});
 }
 
+void appendFog(Document& document, const Fog& fog) {
+  json fields = {{"shape", fog.sphere ? "sphere" : "box"}, {"extinction", fog.extinction}, {"fade", fog.fade}};
+  if (fog.billows != glm::ivec3(0)) {
+    fields["billows"] = json::array({fog.billows.x, fog.billows.y, fog.billows.z});
+    fields["clear"] = fog.clear;
+    fields["seed"] = fog.seed;
+  }
+  appendNode(document, {{"name", fog.name},
+                        {"translation", listOf(fog.position)},
+                        {"scale", listOf(fog.halfSize)},
+                        {"extras", {{"tyndall", {{"fog", fields}}}}}});
+}
+
 /// A node at a place whose -z axis looks along a direction, as glTF's cameras and lights do.
 json nodeLooking(const std::string& name, const glm::dvec3& position, const glm::dvec3& direction) {
   const glm::dvec3 z = -glm::normalize(direction);
@@ -276,6 +289,8 @@ json extrasOf(const Scene& scene) {
   if (scene.farDistance > 0) medium["farDistance"] = scene.farDistance;
   json extras = {{"medium", medium}, {"sky", listOf(scene.sky)}};
   if (scene.ambient != glm::dvec3(0)) extras["ambient"]["radiance"] = listOf(scene.ambient);
+  if (!scene.fog.empty())
+    extras["fog"] = {{"albedo", listOf(scene.fogAlbedo)}, {"phase", "henyey-greenstein"}, {"g", scene.fogG}};
   return {{"tyndall", extras}};
 }
 
@@ -290,6 +305,8 @@ Document::Document(const Scene& scene) {
     appendStrands(*this, strands, materials);
   for (const Smoke& smoke : scene.smoke)
     appendSmoke(*this, smoke);
+  for (const Fog& fog : scene.fog)
+    appendFog(*this, fog);
   appendCamera(*this, scene.camera);
   for (const Light& light : scene.lights)
     appendLight(*this, light, bodies);

@@ -57,6 +57,18 @@ struct Smoke {
   int seed = 0;
 };
 
+/// A bank of fog, as extras.tyndall.fog of a node (scene/Scene.h of the host explains the fields).
+struct Fog {
+  std::string name;
+  glm::dvec3 position{0}, halfSize{1}; ///< metres
+  bool sphere = false;
+  double extinction = 0.1; ///< 1/metre
+  double fade = 0.5;
+  glm::ivec3 billows{0};
+  double clear = 0.3;
+  int seed = 0;
+};
+
 /// Lines of one material that are hair, ropes and the like.
 struct Strands {
   std::string name;
@@ -108,6 +120,9 @@ struct Scene {
   std::vector<Surface> surfaces; ///< one a material, of what stands still
   std::vector<Body> bodies;
   std::vector<Smoke> smoke;
+  std::vector<Fog> fog;
+  glm::dvec3 fogAlbedo{0.95}; ///< what fog scatters of the light that it takes, by Henyey and Greenstein's phase
+  double fogG = 0.6;          ///< function with this asymmetry
   std::vector<Strands> strands;
   Camera camera;
   std::vector<Light> lights;
@@ -148,6 +163,8 @@ Scene makeHair();
 Scene makeCenser();
 /// A low sun behind the ridges around a valley with its morning fog.
 Scene makeValley();
+/// A harbour at dusk: banks of fog between its lamps.
+Scene makeHarbour();
 /// The model of a glTF file, turning once in 12.5 s. Throws host::Error or std::runtime_error.
 Scene makeTurntable(const std::string& path);
 

@@ -83,14 +83,15 @@ struct AvsmVolume {
   enum class Shape { Box, Sphere };
   Shape shape = Shape::Box;
   Mat4 worldFromVolume = kIdentity; ///< places the cube, or the unit sphere, from -1 to 1: affine, invertible
-  double extinction = 0;            ///< where density is 1, 1/world unit, finite and >= 0
+  double extinction = 0;            ///< where density is 1, 1/world unit, 0 to 1e30
   /// Share of the half extent, of a sphere of the radius, over which density rises from 0 at the border, by Hermite's
   /// cubic: 0 to 1; 0: a hard edge.
   double fade = 0;
   std::uint32_t density = 0; ///< GL_TEXTURE_3D, R8, R16, R16F or R32F, level 0, of any size, that fills the cube,
                              ///< trilinear; negative and NaN as 0. 0: 1 everywhere
-  std::uint64_t version = 0; ///< of what it holds: the bricks that are empty are looked for again unless it is as at
-                             ///< the last call that this texture came with, and not 0
+  std::uint64_t version = 0; ///< of what it holds, another texture of the same name included: the bricks that are empty
+                             ///< are looked for again unless it is as at the last call that named the texture, in the
+                             ///< last 8 frames, and not 0
 };
 
 struct AvsmResult;

@@ -446,8 +446,10 @@ struct MovingObject {
 /// surroundings, by what stands before it, and nothing else: the engine draws smoke and hair over its picture by
 /// itself, before the effect. Fog that it does not draw, banks of it that Avsm::drawVolumes() captures, say, the effect
 /// lights: with an albedo it scatters what it takes, as a medium of its own, and with dimsBackground it dims the
-/// picture behind as the medium does. Low rank is Tree then, and a change of the curves draws all anew. Lights'
-/// programs are others than without: prepare() compiles those of the frame that it is given.
+/// picture behind as the medium does. What it takes of light on its way there is for Light::curves to say, into which
+/// the same is captured from the light; Light::scatteringScale counts for it, too. Low rank is Tree then, and a change
+/// of the curves draws all anew. Lights' programs are others than without: prepare() compiles those of the frame that
+/// it is given.
 struct EyeCurves {
   AvsmCurves curves; ///< of layer 0; texture 0: nothing stands before the eye
   double nearDistance =

@@ -147,6 +147,7 @@ struct Avsm::State {
   Status drawParticles(const Light& light, const AvsmParticles& particles);
   Status drawVolumes(const Light& light, const std::vector<AvsmVolume>& volumes);
   Status bindCurves(int layer);
+  void bindListsAgain();
   void record();
   void makeCurves();
   Status makeObjects();
@@ -212,8 +213,7 @@ Status Avsm::drawParticles(const Light& light, const AvsmParticles& particles) {
 Status Avsm::drawVolumes(const Light& light, const std::vector<AvsmVolume>& volumes) {
   if (Status s = state_->checkContext("Avsm::drawVolumes"); !s) return s;
   const Status status = state_->drawVolumes(light, volumes);
-  if (state_->config.state == StateMode::Leave && state_->began == State::Began::Capture)
-    state_->lists->bind(state_->firstBinding, false);
+  state_->bindListsAgain();
   return state_->watch.finish(status);
 }
 
@@ -248,6 +248,7 @@ Status Avsm::State::begin(std::uint32_t binding) {
   if (Status s = lists->makeRoom(); !s) return s;
   gl.MemoryBarrier(gl::BUFFER_UPDATE_BARRIER_BIT); // shaders wrote what is emptied
   lists->empty();
+  volumes.beginFrame();
   lists->bind(binding, false);
   firstBinding = binding;
   began = State::Began::Capture;
@@ -293,6 +294,7 @@ Status Avsm::State::beginStreaming() {
   gl.BindImageTexture(0, curves.name(), 0, 1, 0, gl::WRITE_ONLY, gl::RGBA32UI);
   constexpr gl::Int kPackedOne = -1, kOne = 0x3F800000; // depth and transmittance 1, in bits
   runOverMap(emptyPass(), {{"clearWord", config.packed ? kPackedOne : kOne}});
+  volumes.beginFrame();
   holds = true;
   began = State::Began::Streaming;
   return {};
@@ -311,6 +313,13 @@ Status Avsm::State::drawParticles(const Light& light, const AvsmParticles& parti
   gl.MemoryBarrier(kBarriers);
   insertParticles(particles, static_cast<int>(light.shadow.views.size()));
   return {};
+}
+
+// What begin() bound and the guards have left empty.
+void Avsm::State::bindListsAgain() {
+  if (config.state != StateMode::Leave || began != Began::Capture) return;
+  const avsm::BufferGuard guard(gl, config.state);
+  lists->bind(firstBinding, false, avsm::kStorageBindings);
 }
 
 // Of what was captured: from the first pass since begin() on.

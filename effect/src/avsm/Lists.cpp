@@ -94,9 +94,9 @@ void Lists::empty() const {
                          kEmptyList);
 }
 
-void Lists::bind(gl::Uint first, bool withExits) const {
-  gl_.BindBufferBase(gl::SHADER_STORAGE_BUFFER, first, listBuffer_.name());
-  gl_.BindBufferBase(gl::SHADER_STORAGE_BUFFER, first + 1, segmentBuffer_.name());
+void Lists::bind(gl::Uint first, bool withExits, gl::Uint end) const {
+  if (first < end) gl_.BindBufferBase(gl::SHADER_STORAGE_BUFFER, first, listBuffer_.name());
+  if (first + 1 < end) gl_.BindBufferBase(gl::SHADER_STORAGE_BUFFER, first + 1, segmentBuffer_.name());
   if (withExits) gl_.BindBufferBase(gl::SHADER_STORAGE_BUFFER, first + 2, exitBuffer_.name());
 }
 

@@ -34,8 +34,8 @@ public:
   /// Empties the lists, once there is room.
   void empty() const;
   /// Binds lists and segments to storage binding `first` and the next, and, if asked for, the links of exits to the one
-  /// behind those.
-  void bind(gl::Uint first, bool withExits) const;
+  /// behind those; no binding from `end` on.
+  void bind(gl::Uint first, bool withExits, gl::Uint end = UINT32_MAX) const;
 
   /// Has the header of this frame sent back. Binds buffers to the generic storage and uniform targets.
   void send();

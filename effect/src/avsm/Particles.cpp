@@ -42,10 +42,6 @@ Status checkBuffer(const gl::Functions& gl, const AvsmParticles& particles) {
   return {};
 }
 
-ParticleView::Row rowOf(const glm::dvec4& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(v.w)};
-}
-
 } // namespace
 
 Status checkViews(const Light& light, int layers) {

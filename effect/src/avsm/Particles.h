@@ -1,9 +1,10 @@
-// What passes/avsmParticles.comp is given: the light's shadow views, and whether particles can be drawn at all.
+// What passes over particles and volumes are given of a light, its shadow views; and whether particles can be drawn.
 #pragma once
 
 #include "gl/Functions.h"
 
 #include <array>
+#include <glm/glm.hpp>
 #include <tyndall/avsm.h>
 
 namespace tyndall::avsm {
@@ -15,6 +16,9 @@ struct ParticleView {
   std::array<Row, 3> rows;      ///< texelFromWorld: x, y and the weight, positive before the light
   Row behindLight;              ///< x: depth, before which there is no light
 };
+inline ParticleView::Row rowOf(const glm::dvec4& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(v.w)};
+}
 using ParticlesBlock = std::array<ParticleView, kMaxShadowViews>;
 
 /// Particles of one dispatch: a driver may cut an invocation that loops for long short.

@@ -9,8 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <optional>
 
 namespace tyndall::avsm {
 
@@ -18,6 +16,7 @@ namespace {
 
 constexpr int kBrick = 4;      // texels of a grid, by axis, whose range is known
 constexpr int kTexelGroup = 8; // texels of the map across and up a work group,
+constexpr int kKeptFrames = 8; // that ranges live for without being named
 constexpr int kNodeGroup = 4;  // nodes of a level of ranges by axis
 
 Status refuse(const std::string& field, const std::string& value, const std::string& rule) {
@@ -42,35 +41,31 @@ int levelsOf(const std::array<int, 3>& size) {
   return levels;
 }
 
-ParticleView::Row rowOf(const glm::dvec4& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(v.w)};
-}
-
-bool isSeen(const AvsmVolume& volume) { return volume.extinction > 0; }
-
 struct Texels {
   int x = 0, y = 0, endX = 0, endY = 0;
   bool any() const { return endX > x && endY > y; }
 };
 
-// The texels of a view that a volume's cube may be seen in; none where all of it lies behind the far plane.
-Texels texelsOf(const Light& light, int view, const glm::dmat4& worldFromVolume, int size) {
+// The texels of a view that a volume's cube may be seen in; none where all of it lies behind the far plane, or no
+// deeper than where light begins.
+Texels texelsOf(const Light& light, int view, const glm::dmat4& worldFromVolume, int size, double behindLight) {
   const glm::dmat4 clipFromWorld = optics::toGlm(light.shadow.views[static_cast<std::size_t>(view)].clipFromWorld);
   const glm::dvec4 depth = optics::linearDepth(light, view).coefficients;
   glm::dvec2 low(kInfinity), high(-kInfinity);
-  double nearest = kInfinity;
+  double nearest = kInfinity, farthest = -kInfinity;
   int before = 0, behind = 0; // the light, one or the other
   for (int corner = 0; corner < 8; ++corner) {
     const glm::dvec4 world =
         worldFromVolume * glm::dvec4(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1, 1);
     const glm::dvec4 clip = clipFromWorld * world;
     nearest = std::min(nearest, glm::dot(depth, world));
+    farthest = std::max(farthest, glm::dot(depth, world));
     clip.w > 0 ? ++before : ++behind;
     const glm::dvec2 place = glm::dvec2(clip) / clip.w;
     low = glm::min(low, place);
     high = glm::max(high, place);
   }
-  if (nearest > 1) return {};
+  if (nearest > 1 || farthest <= behindLight) return {};
   if (before > 0 && behind > 0) return {0, 0, size, size};
   // A texel more to each side, for what rounding does to rays.
   const auto texel = [&](double place, int more) {
@@ -141,35 +136,41 @@ Status Volumes::checkDensity(const std::string& field, gl::Uint name, Grid& grid
 Status Volumes::prepare(const Light& light, const std::vector<AvsmVolume>& volumes, int size) {
   draws_.clear();
   for (const std::unique_ptr<Ranges>& ranges : ranges_)
-    ranges->isUsed = false;
+    ranges->isNamed = false;
   for (std::size_t i = 0; i < volumes.size(); ++i) {
-    if (!isSeen(volumes[i])) continue;
     Ranges* ranges = nullptr;
     if (volumes[i].density != 0)
       if (Status s = makeRoom(volumes[i], grids_[i], ranges); !s) return s;
-    plan(light, volumes[i], grids_[i], ranges, size);
+    if (volumes[i].extinction > 0) plan(light, volumes[i], grids_[i], ranges, size);
   }
   return {};
 }
 
-// Ranges of a texture that is as it was are kept for as long as each call names it.
+void Volumes::beginFrame() {
+  for (const std::unique_ptr<Ranges>& ranges : ranges_)
+    ++ranges->age;
+  ranges_.erase(std::remove_if(ranges_.begin(), ranges_.end(), [](const auto& r) { return r->age > kKeptFrames; }),
+                ranges_.end());
+}
+
 Status Volumes::makeRoom(const AvsmVolume& volume, const Grid& grid, Ranges*& ranges) {
   const auto known = std::find_if(ranges_.begin(), ranges_.end(), [&](const std::unique_ptr<Ranges>& r) {
     return r->density == volume.density && r->grid.size == grid.size && r->grid.format == grid.format;
   });
   if (known != ranges_.end()) {
     ranges = known->get();
-    const bool isSame = ranges->isUsed || (volume.version != 0 && volume.version == ranges->version);
+    const bool isSame = volume.version == ranges->version && (volume.version != 0 || ranges->isNamed);
     ranges->isMade = ranges->isMade && isSame;
     ranges->version = volume.version;
-    ranges->isUsed = true;
+    ranges->age = 0;
+    ranges->isNamed = true;
     return {};
   }
   auto made = std::make_unique<Ranges>();
   made->density = volume.density;
   made->version = volume.version;
   made->grid = grid;
-  made->isUsed = true;
+  made->isNamed = true;
   made->texture = gl::Texture(gl_);
   gl::OwnErrors errors(gl_);
   gl_.BindTexture(gl::TEXTURE_3D, made->texture.name());
@@ -203,9 +204,9 @@ void Volumes::plan(const Light& light, const AvsmVolume& volume, const Grid& gri
   block.shape = {volume.shape == AvsmVolume::Shape::Sphere ? 1.0F : 0.0F, static_cast<float>(volume.fade),
                  static_cast<float>(volume.extinction), 0};
   for (int view = 0; view < static_cast<int>(light.shadow.views.size()); ++view) {
-    const Texels texels = texelsOf(light, view, worldFromVolume, size);
-    if (!texels.any()) continue;
     block.view = views[static_cast<std::size_t>(view)];
+    const Texels texels = texelsOf(light, view, worldFromVolume, size, static_cast<double>(block.view.behindLight[0]));
+    if (!texels.any()) continue;
     block.texels = {texels.x, texels.y, texels.endX, texels.endY};
     block.brickCount[3] = view;
     const auto groups = [](int count) { return static_cast<gl::Uint>(unitsFor(count, kTexelGroup)); };
@@ -215,10 +216,8 @@ void Volumes::plan(const Light& light, const AvsmVolume& volume, const Grid& gri
 }
 
 void Volumes::makeRanges(const std::function<void(int level, const Groups& groups)>& run) {
-  ranges_.erase(std::remove_if(ranges_.begin(), ranges_.end(), [](const auto& r) { return !r->isUsed; }),
-                ranges_.end());
   for (const std::unique_ptr<Ranges>& ranges : ranges_) {
-    if (ranges->isMade) continue;
+    if (ranges->isMade || !ranges->isNamed) continue;
     const int levels = levelsOf(ranges->grid.size);
     for (int level = 0; level < levels; ++level) {
       gl_.ActiveTexture(gl::TEXTURE0);

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <tyndall/avsm.h>
 #include <vector>
 
@@ -33,6 +34,9 @@ public:
 
   void makeObjects();
 
+  /// Forgets ranges of grids that no call of the last 8 frames has named.
+  void beginFrame();
+
   /// Every rule of the arguments of Avsm::drawVolumes. Binds to GL_TEXTURE_3D.
   Status check(const Light& light, const std::vector<AvsmVolume>& volumes, int layers);
 
@@ -56,7 +60,9 @@ private:
     std::uint64_t version = 0;
     Grid grid;
     gl::Texture texture;
-    bool isMade = false, isUsed = false;
+    bool isMade = false;
+    int age = 0;          ///< frames since it was named last
+    bool isNamed = false; ///< by the last call
   };
   struct Draw {
     VolumeBlock block;
@@ -74,7 +80,7 @@ private:
   gl::Buffer block_;
   gl::Sampler sampler_;
   std::vector<Grid> grids_;                     // of the volumes that were checked last
-  std::vector<std::unique_ptr<Ranges>> ranges_; // of those that were drawn last
+  std::vector<std::unique_ptr<Ranges>> ranges_; // of grids that calls have named lately
   std::vector<Draw> draws_;
 };
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <optional>
 
 namespace tyndall::optics {
 
@@ -57,12 +58,31 @@ glm::vec4 phaseNormAndShape(const Constituent& c, double& norm) {
   return {1, 0, 0, 1};
 }
 
+// How far along a ray curves before the eye reach.
+double fogReach(const Frame& frame, const blocks::FrameBlock& block) {
+  if (block.isOrthographic != 0) return frame.eyeCurves.farDistance;
+  const glm::dvec3 forward =
+      glm::normalize(glm::dvec3(eyeDepth(frame.camera, frame.eyeCurves.nearDistance, frame.eyeCurves.farDistance)));
+  double least = 1; // cosine, at the corners
+  for (const glm::dvec2 corner : {glm::dvec2(-0.5), glm::dvec2(0.5, -0.5), glm::dvec2(-0.5, 0.5), glm::dvec2(0.5)}) {
+    const glm::dvec2 p = corner * glm::dvec2(block.frameSize);
+    const glm::dvec3 point =
+        glm::dvec3(block.farPoint[0]) + p.x * glm::dvec3(block.farPoint[1]) + p.y * glm::dvec3(block.farPoint[2]);
+    least = std::min(least, glm::dot(glm::normalize(point), forward));
+  }
+  return frame.eyeCurves.farDistance / std::max(least, 1e-3);
+}
+
 // Distance behind which no channel that scatters shows anything, whatever layers add to what is everywhere.
-double visibleDistance(const Medium& medium, const Medium& lit) {
-  const glm::dvec3 extinction = extinctionOf(medium, kEverywhere), scattering = scatteringOf(lit);
+// Where only fog scatters, it ends with its curves.
+double visibleDistance(const Frame& frame, const blocks::FrameBlock& block) {
+  const glm::dvec3 extinction = extinctionOf(frame.medium, kEverywhere), scattering = scatteringOf(frame.medium);
+  const glm::dvec3 fog = fogAlbedo(frame);
   double distance = 0;
-  for (int c = 0; c < 3; ++c)
+  for (int c = 0; c < 3; ++c) {
     if (scattering[c] > 0) distance = std::max(distance, kInvisibleDepth / extinction[c]);
+    if (fog[c] > 0) distance = std::max(distance, std::min(kInvisibleDepth / extinction[c], fogReach(frame, block)));
+  }
   return std::min(distance, kLongestMarch);
 }
 
@@ -185,6 +205,7 @@ glm::dvec3 peakPhase(const blocks::FrameBlock& block) {
 }
 
 glm::dvec3 peakFog(const blocks::FrameBlock& block) {
+  if (block.isFogLit == 0) return glm::dvec3(0);
   const glm::dvec4 shape(block.fogShape);
   return glm::dvec3(block.fogScattering) * ((1 + shape.z) / std::pow(shape.x, 1.5));
 }
@@ -220,8 +241,8 @@ blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
   setCameraRays(block, frame);
   block.extinction = glm::min(
       isLayered(frame.medium) ? extinctionOf(frame.medium, kEverywhere) : extinctionOf(frame.medium), kBrightest);
-  const Medium lit = litMedium(frame);
-  block.visibleEnd = static_cast<float>(visibleDistance(frame.medium, lit));
+  const std::optional<Medium> standIn = standInMedium(frame);
+  const Medium& lit = standIn ? *standIn : frame.medium;
   const std::vector<glm::dvec3> shares = sharesOf(lit);
   for (std::size_t k = 0; k < shares.size(); ++k) {
     double norm = 0;
@@ -237,6 +258,7 @@ blocks::FrameBlock frameBlock(const Frame& frame, const FrameSizes& sizes) {
   block.depthSampleCount = sizes.depthSamples;
   block.frameSize = {frame.viewport.width, frame.viewport.height};
   block.jitter = {frame.camera.jitter[0], frame.camera.jitter[1]};
+  block.visibleEnd = static_cast<float>(visibleDistance(frame, block));
   setEngineDepth(block, frame, sizes.depthRounding);
   setLookup(block, frame.lookup, sizes.lookup);
   setEyeCurves(block, frame, lit, sizes.eyeCurves);
@@ -326,7 +348,9 @@ blocks::LightBlock lightBlock(const Frame& frame, const Light& light, int shadow
       light.kind == LightKind::Point ? glm::dvec3(0, -1, 0) : directionOf(toGlm(light.direction));
   blocks::LightBlock block{};
   const double scale = light.scatteringScale;
-  block.lightColour = glm::min(scale * glm::dvec3(toGlm(light.colour)) * scatteringOf(litMedium(frame)), kBrightest);
+  const std::optional<Medium> standIn = standInMedium(frame);
+  block.lightColour =
+      glm::min(scale * glm::dvec3(toGlm(light.colour)) * scatteringOf(standIn ? *standIn : frame.medium), kBrightest);
   block.lightDirection = direction;
   if (light.kind != LightKind::Directional)
     block.lightPosition = glm::clamp(fromEye(toGlm(light.position), origin), -kBrightest, kBrightest);

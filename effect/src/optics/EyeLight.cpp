@@ -64,14 +64,16 @@ Constituent fogConstituent(const Frame& frame) {
   return fog;
 }
 
-Medium litMedium(const Frame& frame) {
-  Medium medium = frame.medium;
-  const glm::dvec3 fog = fogAlbedo(frame), scattering = scatteringOf(medium);
+std::optional<Medium> standInMedium(const Frame& frame) {
+  if (!isFogLit(frame)) return std::nullopt;
+  const glm::dvec3 fog = fogAlbedo(frame), scattering = scatteringOf(frame.medium);
   Constituent little;
   for (int c = 0; c < 3; ++c)
     if (fog[c] > 0 && scattering[c] == 0)
       little.scattering[static_cast<std::size_t>(c)] = static_cast<float>(1 / frame.eyeCurves.farDistance);
-  if (little.scattering != Rgb{0, 0, 0}) medium.constituents.push_back(little);
+  if (little.scattering == Rgb{0, 0, 0}) return std::nullopt;
+  Medium medium = frame.medium;
+  medium.constituents.push_back(little);
   return medium;
 }
 

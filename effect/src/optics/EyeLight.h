@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <tyndall/tyndall.h>
 
 namespace tyndall::optics {
@@ -20,9 +21,9 @@ inline bool fogDimsBackground(const Frame& frame) { return isDimmedBeforeEye(fra
 /// What scatters as one constituent of so much.
 Constituent fogConstituent(const Frame& frame);
 
-/// The medium by whose scattering light is told: Frame::medium, which in channels in which only fog scatters has a
-/// little. None of its extinction is meant.
-Medium litMedium(const Frame& frame);
+/// The medium by whose scattering light is told, where that is not Frame::medium: in channels in which only fog
+/// scatters it has a little. None of its extinction is meant.
+std::optional<Medium> standInMedium(const Frame& frame);
 
 /// As tyndall::eyeLight(), of what has passed its checks; the camera without its jitter.
 Light eyeLight(const Camera& camera, double nearDistance, double farDistance);

@@ -213,10 +213,12 @@ void setStored(blocks::EpipolarBlock& block, const Frame& frame, const Light& li
     scale = dvec3(kLargestHalf / 256 / glm::pi<double>() * distance / std::max({peak.x, peak.y, peak.z}));
     scale /= greatestDensity(frame.medium, cameraOrigin(frame.camera), dvec3(lamp.lightPosition));
   }
-  // What fog adds: all of a sun's light within no length; a lamp's as if it were as near as a ray may come (above).
+  // What fog adds: all of a sun's light within no length; a lamp's as near to it as a ray may come (above), or as fog
+  // is to a lamp beside the eye.
   if (camera.isFogLit != 0) {
+    const double nearest = std::max({distance / 16, frame.eyeCurves.nearDistance - distance, 1e-15});
     const dvec3 peak = light.kind == LightKind::Directional ? peakFog(camera) / glm::max(leastPhase(camera), 1e-30)
-                                                            : peakFog(camera) * (256 / (distance * distance));
+                                                            : peakFog(camera) / (nearest * nearest);
     scale = 1.0 / (dvec3(camera.mediumScatters) / scale + peak / (0.5 * kLargestHalf));
   }
   block.storedScale = glm::clamp(scale, 1e-30, 1e30);

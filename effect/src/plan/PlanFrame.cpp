@@ -288,7 +288,7 @@ bool FramePlanner::planAmbient(const PassPlanner& planner) {
   PassPlanner passes = planner;
   passes.firstLight = true;
   if (!reason.empty()) {
-    if (!optics::fogDimsBackground(frame_)) return false;
+    if (!optics::fogDimsBackground(frame_) || to.transmittance == 0) return false;
     passes.draw(Pass::Transmittance);
     return true;
   }

@@ -84,6 +84,27 @@ SmokeEmitter smokeOf(Fields& fields) {
   return smoke;
 }
 
+FogBank fogOf(Fields& fields) {
+  requireKeys(fields, {"shape", "extinction", "fade", "billows", "clear", "seed"});
+  FogBank fog;
+  if (fields.has("shape")) {
+    const nlohmann::json& shape = fields.value()["shape"];
+    if (shape != "box" && shape != "sphere") fields.refuse("shape", "must be box or sphere");
+    fog.sphere = shape == "sphere";
+  }
+  read(fields, "extinction", Least::Zero, kMaxNumber, fog.extinction);
+  read(fields, "fade", Least::Zero, 1, fog.fade);
+  constexpr int kMostBillows = 32;
+  glm::dvec3 billows(fog.billows);
+  const char* rule = "must be 3 whole numbers from 1 to 32";
+  read(fields, "billows", 1, kMostBillows, rule, billows);
+  fog.billows = glm::ivec3(billows);
+  if (glm::dvec3(fog.billows) != billows) fields.refuse("billows", rule);
+  read(fields, "clear", Least::Zero, 1, fog.clear);
+  read(fields, "seed", 0, std::numeric_limits<std::int32_t>::max(), fog.seed);
+  return fog;
+}
+
 void readStrand(Document& document, nlohmann::json& element, const std::string& where, Strand& strand) {
   std::optional<Fields> fields = extrasOf(document, element, where, "strand");
   if (!fields) return;
@@ -104,6 +125,19 @@ void convertSmoke(Document& document, const std::vector<int>& sceneNodes, Scene&
     smoke.node = sceneNodes[node];
     document.spend(static_cast<std::uint64_t>(smoke.particles) * sizeof(SmokeParticle), fields->path());
     scene.smoke.push_back(smoke);
+  }
+}
+
+void convertFog(Document& document, const std::vector<int>& sceneNodes, Scene& scene) {
+  constexpr std::size_t kMostBanks = 8; // that are captured
+  for (std::size_t node = 0; node < sceneNodes.size(); ++node) {
+    if (sceneNodes[node] < 0) continue;
+    std::optional<Fields> fields = extrasOf(document, document.json["nodes"][node], at("nodes", node), "fog");
+    if (!fields) continue;
+    if (!scene.smoke.empty()) document.refuse(fields->path(), "a scene has smoke or banks of fog, not both");
+    if (scene.fog.size() == kMostBanks) document.refuse(fields->path(), "a scene has at most 8 banks of fog");
+    scene.fog.push_back(fogOf(*fields));
+    scene.fog.back().node = sceneNodes[node];
   }
 }
 

@@ -116,6 +116,14 @@ TEST_CASE("eye curves that break their rules are refused, field and rule named")
   checkRefused("farDistance is nan", [&](Frame& f) { f.eyeCurves.farDistance = nan; });
   checkRefused("farDistance is inf", [](Frame& f) { f.eyeCurves.farDistance = kInfinity; });
   checkRefused("farDistance is 1e+09", [](Frame& f) { f.eyeCurves.farDistance = 1e9; });
+  for (const float albedo : {-0.1F, 1.1F, std::nanf("")})
+    checkRefused("albedo is", [&](Frame& f) { f.eyeCurves.albedo[1] = albedo; });
+  checkRefused("albedo is (1, 0, 0): a medium of four constituents must scatter", [](Frame& f) {
+    f.eyeCurves.albedo[0] = 1;
+    f.medium.constituents.assign(4, {{0, 0.1F, 0.1F}});
+  });
+  checkRefused("phase is 4", [](Frame& f) { f.eyeCurves.phase = static_cast<Phase>(4); });
+  checkRefused("g is 1", [](Frame& f) { f.eyeCurves.g = 1; });
 }
 
 TEST_CASE("eye curves: jitter, several depths a pixel, cascades, smoke before the light and any number of nodes") {

@@ -237,6 +237,8 @@ Poison::Poison() {
     textures.push_back(host::makeTexture2D(GL_R8, 1, 1));
     textures.push_back(host::makeTextureArray(GL_R8, 1, 1, 2));
     textures.push_back(host::makeTexture2DMultisample(GL_RGBA8, 1, 1, 4));
+    textures.push_back(host::makeTexture());
+    g.BindTexture(GL_TEXTURE_3D, textures.back().name());
     samplers.push_back(host::makeSampler());
     g.BindSampler(static_cast<GLuint>(unit), samplers.back().name());
   }

@@ -1,0 +1,28 @@
+// A scene's banks of fog as the effect captures them (tyndall::Avsm::drawVolumes).
+#pragma once
+
+#include "gl/Objects.h"
+
+#include <scene/Scene.h>
+#include <tyndall/avsm.h>
+#include <vector>
+
+namespace host {
+
+class FogVolumes {
+public:
+  /// Uploads their densities.
+  explicit FogVolumes(const Scene& scene);
+
+  /// In a pose; those whose nodes have lost an extent are left out. Textures live as long as this.
+  std::vector<tyndall::AvsmVolume> at(const std::vector<glm::dmat4>& worldFromNode) const;
+
+private:
+  struct Bank {
+    FogBank fog;
+    GlTexture density; ///< none of an even bank
+  };
+  std::vector<Bank> banks_;
+};
+
+} // namespace host
