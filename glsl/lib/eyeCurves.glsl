@@ -1,5 +1,5 @@
 // What smoke and hair leave of light on its way to the eye, and what fog scatters that they stand for. The light of a ray is added in pieces that are
-// so short that a line stands for the transmittance. Needs lib/eyeTexels.glsl, lib/weighted.glsl.
+// so short that a line stands for the transmittance; FOG_STEPS: and that so many are in what is lit fog. Needs lib/eyeTexels.glsl, lib/weighted.glsl.
 
 struct EyePath {
   vec2 place;           // of the ray in the map
@@ -92,6 +92,9 @@ void addSeen(Airlight light, float s0, float s1, Visibility mean, Visibility mom
     float to = before ? min(eyePath.begin, s1) : s1;
     if (dims) {
       float piece = from + max(steadyLength(light, s0, s1, from), least);
+#ifdef FOG_STEPS
+      if (isFogLit != 0) piece = min(piece, from + (eyePath.end - eyePath.begin) / FOG_STEPS);
+#endif
       to = min(piece > from ? piece : s1, min(eyePath.end, s1));
     }
     vec2 passed = dims ? eyePassed(from, to) : vec2(before ? 1.0 : eyePath.passed, 0.0);

@@ -3,6 +3,7 @@
 // lights) and transmittance (lib/outputs.glsl).
 // Physics: DESIGN 1; closed form of Yusov 2013.
 #define FADE_STEPS 16
+#define FOG_STEPS 128.0
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"

@@ -125,6 +125,23 @@ void makeLookup(Case& made, const AxisSet& simple) {
   made.lookupFar = made.lookupNear * random.logUniform(1.001, 1e4);
 }
 
+// Of curves before the eye every second one is fog: what they take is scattered, and they may dim the picture behind.
+void makeFog(Case& made, Random& random) {
+  const Medium& medium = made.frame.medium;
+  const bool hasFourDark = medium.constituents.size() == kMaxConstituents; // which may be dark in a channel
+  if (random.chance(0.5) || medium.absorptionLayer >= 0 || hasFourDark) return;
+  // Fog has no sheets: what is taken at one depth is lit where a piece of light is, to a few hundredths.
+  for (std::vector<glm::dvec2>& curve : made.eyeCurves.curves)
+    for (std::size_t i = 0; i < curve.size(); ++i)
+      curve[i].x = glm::round((0.9 * curve[i].x + 0.02 * static_cast<double>(i)) * 65535.0) / 65535.0;
+  EyeCurves& eye = made.frame.eyeCurves;
+  for (float& channel : eye.albedo)
+    channel = random.chance(0.15) ? 0.0F : static_cast<float>(random.uniform());
+  eye.phase = static_cast<Phase>(random.integer(0, 3));
+  eye.g = static_cast<float>(random.uniform(-0.95, 0.95));
+  eye.dimsBackground = random.chance(0.5);
+}
+
 // In every fourth family but the first few something stands before the eye: curves of four nodes, 16 bits a number. Of
 // the first, of which a test draws thousands of frames, none: their reference takes three times as long.
 void makeEyeCurves(Case& made, const AxisSet& simple) {
@@ -145,6 +162,7 @@ void makeEyeCurves(Case& made, const AxisSet& simple) {
   }
   made.frame.eyeCurves.nearDistance = random.logUniform(1e-3, 10);
   made.frame.eyeCurves.farDistance = made.frame.eyeCurves.nearDistance * random.logUniform(1.001, 1e4);
+  makeFog(made, random);
 }
 
 void makeSettings(Case& made, const AxisSet& simple) {

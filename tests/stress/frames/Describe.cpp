@@ -56,6 +56,9 @@ std::string describe(const Case& made) {
                       made.lookupNear, made.lookupFar);
   text += fmt::format("before the eye {} x {} curves from {:g} to {:g}\n", made.eyeCurves.size, made.eyeCurves.size,
                       frame.eyeCurves.nearDistance, frame.eyeCurves.farDistance);
+  text += fmt::format("of which {} is scattered, phase {}, g {:g}{}\n", textOf(frame.eyeCurves.albedo),
+                      static_cast<int>(frame.eyeCurves.phase), frame.eyeCurves.g,
+                      frame.eyeCurves.dimsBackground ? "; they dim the background" : "");
   text += fmt::format("ambient {}", textOf(frame.ambient.radiance));
   for (const Rgb& harmonic : frame.ambient.harmonics)
     text += " " + textOf(harmonic);

@@ -276,6 +276,8 @@ tyndall::Frame frameOf(Numbers& numbers) {
   if (numbers.below(4) == 1) {
     frame.eyeCurves = {{13, 8, numbers.flag(), 0}, scaled(numbers, -3, 9), 0};
     frame.eyeCurves.farDistance = frame.eyeCurves.nearDistance * scaled(numbers, 0, 4);
+    frame.eyeCurves.albedo = {static_cast<float>(scaled(numbers, -3, 1)), 0.5F, 1};
+    frame.eyeCurves.dimsBackground = numbers.flag();
   }
   return frame;
 }
