@@ -46,4 +46,5 @@ picture smoke
 picture hair
 picture censer
 picture valley
+picture harbour
 say "Done: look at out/gallery/.$viewer"

@@ -85,6 +85,9 @@ void checkCamerasAndLights(const host::Scene& scene, Rules& rules) {
   }
   for (const host::SmokeEmitter& smoke : scene.smoke)
     rules.require(isIndex(smoke.node, scene.nodes.size()) && smoke.node >= 0 && smoke.lifetime() > 0, "smoke lives");
+  for (const host::FogBank& fog : scene.fog)
+    rules.require(isIndex(fog.node, scene.nodes.size()) && fog.node >= 0 && fog.extinction >= 0 && fog.fade <= 1,
+                  "fog has a place");
 }
 
 void checkAnimation(const host::Scene& scene, Rules& rules) {

@@ -19,5 +19,6 @@ set(TYNDALL_UNIT_SCENE_SOURCES
   ${CMAKE_CURRENT_LIST_DIR}/SampleFilesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SceneRules.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SceneRules.h
+  ${CMAKE_CURRENT_LIST_DIR}/FogTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SmokeTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/WrittenScenesTest.cpp)
