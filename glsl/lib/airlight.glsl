@@ -13,7 +13,7 @@
 #define Light Spectrum
 #endif
 
-#if EYE_CURVES
+#if FOG
 #define Weight vec3 // how much a span's light counts: what passes, and what is scattered besides
 #else
 #define Weight Visibility

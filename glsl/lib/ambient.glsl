@@ -33,7 +33,9 @@ Airlight ambientLightOf(vec2 position) {
 #endif
 #if EYE_CURVES
   startEyePath(position, ray);
+#if FOG
   eyePath.fog = ambientOf(3, ray.direction);
+#endif
 #endif
   return light;
 }

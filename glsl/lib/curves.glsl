@@ -65,7 +65,7 @@ uniform sampler2D curveTree;  // nodes of 4, 16, ... cells behind one another x 
 
 float evenStretch(Airlight light, ViewSegment segment) {
   float even = evenLength(light, EVEN_STRETCH, segment.s0, segment.s1);
-#if EYE_CURVES
+#if FOG
   even = evenInFog(even);
 #endif
   return even;

@@ -1,4 +1,4 @@
-// What smoke and hair leave of light on its way to the eye, and what fog scatters that they stand for. The light of a ray is added in pieces that are
+// What smoke and hair leave of light on its way to the eye and, FOG 1, what fog scatters that they stand for. The light of a ray is added in pieces that are
 // so short that a line stands for the transmittance; FOG_STEPS: and that so many are in what is lit fog. Needs lib/eyeTexels.glsl, lib/weighted.glsl.
 
 struct EyePath {
@@ -6,8 +6,10 @@ struct EyePath {
   vec2 depth;           // of the curves at s: x + s y
   float begin, end;     // of what dims, along the ray; the end is not behind the begin if nothing does
   float passed;         // behind it
+#if FOG
   vec2 known;           // what fog leaves up to x is y
   vec3 fog;             // what fog scatters of a light whose direction is one, in the unit of what addAirlight() adds
+#endif
 } eyePath;
 
 // For the ray through a window position: before any of its light is added.
@@ -26,13 +28,15 @@ void startEyePath(vec2 position, Ray ray) {
   eyePath.begin = max((ends.x - eyePath.depth.x) * inverse, 0.0);
   eyePath.end = (ends.y - eyePath.depth.x) * inverse;
   eyePath.passed = ends.z;
+#if FOG
   eyePath.known = vec2(-1.0, 1.0);
-  if (isFogLit != 0) eyePath.begin = min(eyePath.begin, (1.0 - 1e-4) * eyePath.end); // what is at one depth has a place where it is lit
+  eyePath.begin = min(eyePath.begin, (1.0 - 1e-4) * eyePath.end); // what is at one depth has a place where it is lit
 #if LIGHT_KIND == 0
   vec3 sum = lightDirection + ray.direction, difference = lightDirection - ray.direction;
   eyePath.fog = fogScattering * fogPhase(0.5 * dot(sum, sum), 0.5 * dot(difference, difference));
 #ifdef PHASE_APART
   eyePath.fog /= phaseAlong(ray);
+#endif
 #endif
 #endif
 }
@@ -48,6 +52,8 @@ vec2 eyePassed(float s0, float s1) {
   }
   return passed;
 }
+
+#if FOG
 
 float eyeFogUpTo(float s) { return eyePassedUpTo(eyePath.place, eyePath.depth.x + s * eyePath.depth.y); }
 
@@ -74,7 +80,9 @@ Airlight ofFog(Airlight light) {
 }
 
 // How long a stretch may be that is taken as a whole: not so long that it tells nothing of where in fog light is.
-float evenInFog(float len) { return isFogLit != 0 && eyePath.end > eyePath.begin ? min(len, (eyePath.end - eyePath.begin) / 64.0) : len; }
+float evenInFog(float len) { return eyePath.end > eyePath.begin ? min(len, (eyePath.end - eyePath.begin) / 64.0) : len; }
+
+#endif
 
 const float kEyePieces = 256.0; // of what dims, at most: where light changes fast
 
@@ -92,8 +100,8 @@ void addSeen(Airlight light, float s0, float s1, Visibility mean, Visibility mom
     float to = before ? min(eyePath.begin, s1) : s1;
     if (dims) {
       float piece = from + max(steadyLength(light, s0, s1, from), least);
-#ifdef FOG_STEPS
-      if (isFogLit != 0) piece = min(piece, from + (eyePath.end - eyePath.begin) / FOG_STEPS);
+#if FOG && defined(FOG_STEPS)
+      piece = min(piece, from + (eyePath.end - eyePath.begin) / FOG_STEPS);
 #endif
       to = min(piece > from ? piece : s1, min(eyePath.end, s1));
     }
@@ -102,8 +110,9 @@ void addSeen(Airlight light, float s0, float s1, Visibility mean, Visibility mom
     own.mean = clamp(own.mean, Visibility(0.0), Visibility(1.0)); // lines are no more than near to what is between 0 and 1, as are their halves
     Visibility most = 0.5 * min(own.mean, 1.0 - own.mean);
     own.moment = clamp(own.moment, -most, most);
+#if FOG
     if (own.mean != Visibility(0.0)) addWeighted(light, from, to, mediumScatters * own.mean, mediumScatters * own.moment, sum);
-    if (isFogLit != 0 && dims) {
+    if (dims) {
       VisibilityLine lit = dimmedBy(line, eyeTaken(from, to));
       lit.mean = max(lit.mean, Visibility(0.0));
       lit.moment = clamp(lit.moment, -0.5 * lit.mean, 0.5 * lit.mean);
@@ -111,6 +120,9 @@ void addSeen(Airlight light, float s0, float s1, Visibility mean, Visibility mom
       if (lit.mean != Visibility(0.0)) addWeighted(ofFog(light), from, to, Weight(lit.mean), Weight(lit.moment), sum);
       scattersInFog = false;
     }
+#else
+    if (passed.x > 0.0) addWeighted(light, from, to, own.mean, own.moment, sum);
+#endif
     from = to;
   }
 }

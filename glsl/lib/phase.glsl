@@ -22,7 +22,7 @@ Spectrum opticalDepthTo(Ray ray, float s) { return SPECTRUM(extinction) * s; }
 // Of the picture behind: T(s) of DESIGN 1.
 vec3 transmittanceTo(Ray ray, float s) { return dimsBackground != 0 ? vec3(exp(-opticalDepthTo(ray, s))) : vec3(1.0); }
 
-#if EYE_CURVES
+#if FOG
 // Of what curves before the eye scatter, but for its norm.
 float fogPhase(float oneMinusCos, float onePlusCos) {
   float cosine = 0.5 * (onePlusCos - oneMinusCos), r = inversesqrt(fogShape.x + fogShape.y * (fogShape.w > 0.0 ? oneMinusCos : onePlusCos));
@@ -34,7 +34,7 @@ bool scattersInFog = false; // while light is added that it scatters
 
 // Sum over constituents of sigma_k p_k over the sum of sigma_k, 1/sr. Takes 1 - cos and 1 + cos of the scattering angle.
 Spectrum phaseTowardsEye(float oneMinusCos, float onePlusCos) {
-#if EYE_CURVES && LIGHT_KIND != 0
+#if FOG && LIGHT_KIND != 0
   if (scattersInFog) return fogScattering * fogPhase(oneMinusCos, onePlusCos);
 #endif
   float cosSquared = 0.25 * (onePlusCos - oneMinusCos) * (onePlusCos - oneMinusCos);
@@ -64,7 +64,7 @@ Phases phasesTowardsEye(float oneMinusCos, float onePlusCos) {
 #if HEIGHT > 2
   phases.second = Spectrum(0.0);
 #endif
-#if EYE_CURVES && LIGHT_KIND != 0
+#if FOG && LIGHT_KIND != 0
   if (scattersInFog) {
     phases.even = fogScattering * fogPhase(oneMinusCos, onePlusCos);
     return phases;

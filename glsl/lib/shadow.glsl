@@ -2,7 +2,7 @@
 // texels and depth, a + s b in homogeneous texel space: along the line the receiver's depth is linear in the line's own
 // parameter u, only s needs the rational map.
 //
-// SHADOW_VIEWS: 0 no shadow map, 1 one view, 2 several. SHADOW_ARRAY, FILTER_BILINEAR, GLASS, CURVES, EYE_CURVES: 0 or 1.
+// SHADOW_VIEWS: 0 no shadow map, 1 one view, 2 several. SHADOW_ARRAY, FILTER_BILINEAR, GLASS, CURVES, EYE_CURVES, FOG: 0 or 1.
 
 #define FADES (SHADOW_VIEWS == 2 && LIGHT_KIND == 0) // cascades may fade into one another
 

@@ -64,7 +64,7 @@ void startRow(Airlight light, ViewSegment segment, int slice, out RowLine line, 
   // The longest texel of a projection that may be a perspective one.
   float texel = (segment.s1 - segment.s0) * line.inverse * max(segment.weight, 1.0 / segment.weight);
   float even = evenLength(light, averageThreshold, segment.s0, segment.s1);
-#if EYE_CURVES
+#if FOG
   even = evenInFog(even);
 #endif
   line.evenLevel = min(int(floor(0.5 * log2(clamp(even / max(texel, 1e-30), 1.0, 1e9)))), kMostEven);

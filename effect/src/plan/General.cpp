@@ -124,6 +124,8 @@ void chooseMaps(std::string_view fragment, Values values) {
 gl::Definitions general(const std::string& fragment, gl::Definitions definitions) {
   Values values(definitions);
   if (!seesEyeCurves(fragment, values)) values.set("EYE_CURVES", 0);
+  if (values["EYE_CURVES"] == 0 || isOneOf(fragment, {"lookupTransmittance", "marks", "transmittance"}))
+    values.set("FOG", 0);
   if (!seesLayers(fragment, values)) values.set("HEIGHT", kNoLayers);
   if (isOneOf(fragment, {"ambient", "lookupAmbient", "lookupTransmittance", "transmittance"}))
     values.set("MONOCHROME", 0);

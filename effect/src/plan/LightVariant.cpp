@@ -10,6 +10,7 @@ gl::Definitions definitionsOf(const LightVariant& v) {
                                  {"GLASS", v.glass},
                                  {"CURVES", v.curves},
                                  {"EYE_CURVES", v.eyeCurves},
+                                 {"FOG", v.fog},
                                  {"HEIGHT", v.layers},
                                  {"MONOCHROME", v.monochrome},
                                  {"COMPOSITE", v.composite}};
@@ -50,12 +51,16 @@ std::vector<LightVariant> allLightVariants(bool dualSource) {
     add(v);
     v.eyeCurves = true;
     add(v);
-    for (int bits = 0; bits < 32; ++bits) {
+    v.fog = true;
+    add(v);
+    for (int bits = 0; bits < 64; ++bits) {
+      if ((bits & 48) == 32) continue; // fog is what curves before the eye stand for
       v.shadowArray = (bits & 1) != 0;
       v.bilinear = (bits & 2) != 0;
       v.glass = (bits & 4) != 0;
       v.curves = (bits & 8) != 0;
       v.eyeCurves = (bits & 16) != 0;
+      v.fog = (bits & 32) != 0;
       for (v.shadowViews = 1; v.shadowViews <= (kind != 2 ? 2 : 1); ++v.shadowViews)
         add(v);
     }

@@ -18,7 +18,8 @@ struct LightVariant {
   bool bilinear = false;
   bool glass = false;
   bool curves = false;    ///< smoke and hair dim the light (Light::curves)
-  bool eyeCurves = false; ///< and what comes to the eye (Frame::eyeCurves)
+  bool eyeCurves = false; ///< and what comes to the eye (Frame::eyeCurves),
+  bool fog = false;       ///< of what it takes a part is scattered
   int layers = kNoLayers;
   bool monochrome = false;
   bool composite = false; ///< dual-source outputs of unwarp and transmittance instead of two targets

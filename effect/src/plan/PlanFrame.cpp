@@ -82,6 +82,7 @@ LightVariant variantOf(const Frame& frame, const Light& light, bool dualSource, 
   variant.dualSource = dualSource;
   variant.layers = layersFor(frame.medium, light);
   variant.eyeCurves = optics::isDimmedBeforeEye(frame);
+  variant.fog = optics::isFogLit(frame);
   variant.monochrome = optics::isMonochrome(frame.medium);
   variant.composite = direct;
   variant.lightKind = static_cast<int>(light.kind);
@@ -115,6 +116,7 @@ FramePlanner::FramePlanner(const PlanInputs& inputs, Allocator& allocator, Plann
   passes_.variant.dualSource = inputs.tuning.compositing == Compositing::DualSource;
   passes_.variant.layers = optics::isLayered(frame_.medium) ? kAnyLayers : kNoLayers;
   passes_.variant.eyeCurves = optics::isDimmedBeforeEye(frame_);
+  passes_.variant.fog = optics::isFogLit(frame_);
   passes_.board[Resource::EyeCurves] = frame_.eyeCurves.curves.texture;
   const FrameTextures::Lookup& lookup = inputs.textures.lookup;
   passes_.extent.lookup = {lookup.width, lookup.height};
