@@ -141,17 +141,17 @@ Status checkLookup(const Frame& frame) {
 
 Status checkEyeCurves(const Frame& frame) {
   const EyeCurves& eye = frame.eyeCurves;
+  if (!isNonNegative(eye.albedo) || std::any_of(eye.albedo.begin(), eye.albedo.end(), [](float a) { return a > 1; }))
+    return invalid("eyeCurves.albedo", textOf(eye.albedo), "must be 0 to 1");
+  if (Status s = checkPhase("eyeCurves.", eye.phase, eye.g); !s) return s;
+  if (eye.curves.texture == 0) return {};
+  const auto& all = frame.medium.constituents;
   for (std::size_t c = 0; c < 3; ++c) {
-    if (!(eye.albedo[c] >= 0 && eye.albedo[c] <= 1))
-      return invalid("eyeCurves.albedo", textOf(eye.albedo), "must be 0 to 1");
     const auto scatters = [&](const Constituent& constituent) { return constituent.scattering[c] > 0; };
-    const auto& all = frame.medium.constituents;
     if (eye.albedo[c] > 0 && all.size() == kMaxConstituents && std::none_of(all.begin(), all.end(), scatters))
       return invalid("eyeCurves.albedo", textOf(eye.albedo),
                      "a medium of four constituents must scatter in each channel in which this does");
   }
-  if (Status s = checkPhase("eyeCurves.", eye.phase, eye.g); !s) return s;
-  if (eye.curves.texture == 0) return {};
   if (Status s = checkNodes("eyeCurves.curves.nodes", eye.curves); !s) return s;
   return checkEyePlanes(frame.camera, eye.nearDistance, eye.farDistance);
 }

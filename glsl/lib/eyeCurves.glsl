@@ -30,7 +30,7 @@ void startEyePath(vec2 position, Ray ray) {
   eyePath.passed = ends.z;
 #if FOG
   eyePath.known = vec2(-1.0, 1.0);
-  eyePath.begin = min(eyePath.begin, (1.0 - 1e-4) * eyePath.end); // what is at one depth has a place where it is lit
+  if (eyePath.end >= eyePath.begin) eyePath.begin = min(eyePath.begin, (1.0 - 1e-4) * eyePath.end); // what is at one depth has a place where it is lit
 #if LIGHT_KIND == 0
   vec3 sum = lightDirection + ray.direction, difference = lightDirection - ray.direction;
   eyePath.fog = fogScattering * fogPhase(0.5 * dot(sum, sum), 0.5 * dot(difference, difference));
@@ -59,7 +59,7 @@ float eyeFogUpTo(float s) { return eyePassedUpTo(eyePath.place, eyePath.depth.x 
 
 // Of what is taken there, a unit of length: its mean and first moment, the latter from the mean transmittance by Simpson's rule.
 vec2 eyeTaken(float s0, float s1) {
-  float nearer = s0 == eyePath.known.x ? eyePath.known.y : eyeFogUpTo(s0), farther = s1 < eyePath.end ? eyeFogUpTo(s1) : eyePath.passed, mean = (nearer + 4.0 * eyeFogUpTo(0.5 * (s0 + s1)) + farther) / 6.0;
+  float nearer = s0 <= eyePath.begin ? 1.0 : s0 == eyePath.known.x ? eyePath.known.y : eyeFogUpTo(s0), farther = s1 < eyePath.end ? eyeFogUpTo(s1) : eyePath.passed, mean = (nearer + 4.0 * eyeFogUpTo(0.5 * (s0 + s1)) + farther) / 6.0;
   eyePath.known = vec2(s1, farther);
   float taken = max(nearer - farther, 0.0);
   return vec2(taken, clamp(2.0 * mean - nearer - farther, -0.5 * taken, 0.5 * taken)) / max(s1 - s0, 1e-30);
@@ -111,14 +111,20 @@ void addSeen(Airlight light, float s0, float s1, Visibility mean, Visibility mom
     Visibility most = 0.5 * min(own.mean, 1.0 - own.mean);
     own.moment = clamp(own.moment, -most, most);
 #if FOG
-    if (own.mean != Visibility(0.0)) addWeighted(light, from, to, mediumScatters * own.mean, mediumScatters * own.moment, sum);
-    if (dims) {
-      VisibilityLine lit = dimmedBy(line, eyeTaken(from, to));
-      lit.mean = max(lit.mean, Visibility(0.0));
-      lit.moment = clamp(lit.moment, -0.5 * lit.mean, 0.5 * lit.mean);
-      scattersInFog = true;
-      if (lit.mean != Visibility(0.0)) addWeighted(ofFog(light), from, to, Weight(lit.mean), Weight(lit.moment), sum);
-      scattersInFog = false;
+    // What the medium scatters, and then what fog does: one loop, since compilers write what is in it as often as it is called.
+    Weight weight = mediumScatters * own.mean, weightMoment = mediumScatters * own.moment;
+    Airlight scattered = light;
+    bool more = true;
+    while (more) {
+      if (weight != Weight(0.0)) addWeighted(scattered, from, to, weight, weightMoment, sum);
+      more = dims && !scattersInFog;
+      scattersInFog = more;
+      if (more) {
+        VisibilityLine lit = dimmedBy(line, eyeTaken(from, to));
+        weight = Weight(max(lit.mean, Visibility(0.0)));
+        weightMoment = clamp(Weight(lit.moment), -0.5 * weight, 0.5 * weight);
+        scattered = ofFog(light);
+      }
     }
 #else
     if (passed.x > 0.0) addWeighted(light, from, to, own.mean, own.moment, sum);

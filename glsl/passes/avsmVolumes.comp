@@ -207,7 +207,7 @@ void march(float end, float nearPlane) {
       from = to = stretch.x;
     } else if (stretch.y > 0.0) {
       float own = min(stretch.y * extinctionOfDepth * (stretch.x - s), kMostDepth), seen = min(own, kOpaque + 0.5);
-      float len = (stretch.x - s) * (seen / own), parts = ceil(seen / kLongest);
+      float len = (stretch.x - s) * (own > 0.0 ? seen / own : 1.0), parts = max(ceil(seen / kLongest), 1.0);
       for (float i = 1.0; i < parts; ++i) addStep(s + len * (i / parts), seen / parts);
       addStep(seen < own ? s + len : stretch.x, seen / parts);
     } else {

@@ -8,6 +8,21 @@
 
 namespace host {
 
+namespace {
+
+/// Of a cube that has lost an extent, but for rounding.
+bool isFlat(glm::dmat3 axes) {
+  constexpr double kRounding = 1e-9;
+  for (int i = 0; i < 3; ++i) {
+    const double length = glm::length(axes[i]);
+    if (!(length > 0)) return true;
+    axes[i] /= length;
+  }
+  return !(std::abs(glm::determinant(axes)) > kRounding);
+}
+
+} // namespace
+
 FogVolumes::FogVolumes(const Scene& scene) {
   for (const FogBank& fog : scene.fog) {
     const FogGrid grid = fogGrid(fog);
@@ -27,7 +42,7 @@ std::vector<tyndall::AvsmVolume> FogVolumes::at(const std::vector<glm::dmat4>& w
   std::vector<tyndall::AvsmVolume> volumes;
   for (const Bank& bank : banks_) {
     const glm::dmat4& matrix = worldFromNode[static_cast<std::size_t>(bank.fog.node)];
-    if (!(std::abs(glm::determinant(glm::dmat3(matrix))) > 0)) continue;
+    if (isFlat(glm::dmat3(matrix))) continue;
     tyndall::AvsmVolume volume;
     volume.shape = bank.fog.sphere ? tyndall::AvsmVolume::Shape::Sphere : tyndall::AvsmVolume::Shape::Box;
     volume.worldFromVolume = toMat4(matrix);

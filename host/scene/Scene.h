@@ -117,7 +117,7 @@ struct SmokeEmitter {
 };
 
 /// A box or a sphere of fog, from extras.tyndall.fog of a node, whose transform places the cube, or the unit sphere,
-/// from -1 to 1. It stops at its border, whatever stands within.
+/// from -1 to 1. A node that has lost an extent has none.
 struct FogBank {
   int node = 0;            ///< index into Scene::nodes
   bool sphere = false;     ///< else a box

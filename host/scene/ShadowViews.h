@@ -21,7 +21,7 @@ struct ShadowOptions {
 
 /// Fills light.shadow.views (matrices; layers 0, 1, ...) and light.shadow.clipDepth, and nothing else of the light.
 ///
-/// Casters are triangles, glass too, and boxes around smoke and strands.
+/// Casters are triangles, glass too, and boxes around smoke, fog and strands.
 ///
 /// Directional: a box along the light that holds all casters, turned about the light's direction for the
 /// smallest area. Sideways it is cut to what a camera ray can reach of the casters' shadows, so every point of a camera

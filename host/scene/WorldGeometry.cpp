@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <scene/Fog.h>
 #include <scene/Smoke.h>
 
 namespace host {
@@ -149,6 +150,7 @@ Scene boxesOf(const Scene& scene) {
   boxes.cameras = scene.cameras;
   boxes.lights = scene.lights;
   boxes.smoke = scene.smoke;
+  boxes.fog = scene.fog;
   boxes.animation = scene.animation;
   boxes.medium = scene.medium;
   boxes.ambient = scene.ambient;
@@ -172,6 +174,8 @@ WorldGeometry blockingGeometry(const Scene& scene, const std::vector<glm::dmat4>
   appendStrandBoxes(geometry, scene, worldFromNode);
   for (const SmokeEmitter& emitter : scene.smoke)
     appendBox(geometry, smokeBounds(scene, emitter, seconds), glm::dmat4(1));
+  for (const Bounds& box : fogBounds(scene, worldFromNode))
+    appendBox(geometry, box, glm::dmat4(1));
   return geometry;
 }
 

@@ -30,7 +30,7 @@ WorldGeometry opaqueGeometry(const Scene& scene, const std::vector<glm::dmat4>& 
 WorldGeometry visibleGeometry(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode);
 
 /// All that may stand in the way of light: triangles that are not unlit, and boxes around the strands of each node and
-/// around each emitter's smoke at a time.
+/// around each emitter's smoke at a time and each bank of fog.
 WorldGeometry blockingGeometry(const Scene& scene, const std::vector<glm::dmat4>& worldFromNode, double seconds);
 
 /// The scene with a box for each primitive, of triangles or lines, and without textures: bounds, cameras and shadow

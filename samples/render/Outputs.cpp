@@ -52,7 +52,7 @@ nlohmann::ordered_json passesOf(const std::vector<tyndall::PassStatistics>& stat
   return passes;
 }
 
-/// "avsm": what smoke and strands cost, for each light and the eye.
+/// "avsm": what smoke, fog and strands cost, for each light and the eye.
 nlohmann::ordered_json volumeShadowsOf(const std::vector<VolumeShadowStatistics>& maps) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const VolumeShadowStatistics& map : maps) {

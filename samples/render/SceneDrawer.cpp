@@ -96,7 +96,6 @@ SceneDrawer::SceneDrawer(host::Scene scene, const host::Context& context, const 
                          host::Notes& notes)
     : context_(context), scene_(std::move(scene)), boxes_(host::boxesOf(scene_)),
       renderer_(std::make_unique<host::SceneRenderer>(scene_)), meshBounds_(host::meshBounds(scene_)) {
-  if (!scene_.fog.empty()) fog_.emplace(scene_);
   makeVolumeShadows(state, notes);
 }
 
@@ -106,6 +105,8 @@ bool SceneDrawer::hasVolumes() const {
 
 // Again where the state has others.
 void SceneDrawer::makeVolumeShadows(const settings::State& state, host::Notes& notes) {
+  if (!scene_.fog.empty() && !(state.avsm && state.eyeCurves))
+    addOnce(notes, {"fog is not drawn without maps of smoke, fog and strands, and curves before the eye"});
   const bool isMade = avsm_.isOn == state.avsm && avsm_.size == state.avsmSize && avsm_.nodes == state.avsmNodes;
   if (!hasVolumes() || isMade) return;
   avsm_ = {state.avsm, state.avsmSize, state.avsmNodes};
@@ -118,6 +119,7 @@ void SceneDrawer::makeVolumeShadows(const settings::State& state, host::Notes& n
   if (version >= kNeeded) {
     volumeShadows_ =
         std::make_unique<VolumeShadows>(context_.loader(), timingFor(context_), state.avsmSize, state.avsmNodes);
+    if (!scene_.fog.empty() && !fog_) fog_.emplace(scene_);
     return;
   }
   notes.push_back(
@@ -127,7 +129,12 @@ void SceneDrawer::makeVolumeShadows(const settings::State& state, host::Notes& n
 }
 
 tyndall::Medium SceneDrawer::mediumOf(const settings::State& state, host::Notes& notes) const {
-  return state.medium ? *state.medium : host::mediumOf(scene_, host::boundsOf(scene_, host::poseAt(scene_, 0)), notes);
+  if (state.medium) return *state.medium;
+  const std::vector<glm::dmat4> pose = host::poseAt(scene_, 0);
+  host::Bounds bounds = host::boundsOf(scene_, pose);
+  for (const host::Bounds& box : host::fogBounds(scene_, pose))
+    bounds = {glm::min(bounds.low, box.low), glm::max(bounds.high, box.high)};
+  return host::mediumOf(scene_, bounds, notes);
 }
 
 tyndall::Ambient SceneDrawer::ambientOf(const settings::State& state) const {
@@ -201,10 +208,15 @@ bool SceneDrawer::isMapped(const MappedLight& last, const MappedLight& now, cons
 
 std::vector<double> SceneDrawer::volumesKeyOf(const settings::State& state, const Moment& moment,
                                               const std::vector<glm::dmat4>& worldFromNode) const {
-  std::vector<double> key = {
-      1, moment.seconds, state.smokeDensity, state.strandWidth, state.strandOpacity, double(moment.isCoarse)};
-  for (const glm::dmat4& matrix : worldFromNode)
-    append(key, matrix);
+  std::vector<double> key = {1};
+  if (!scene_.smoke.empty() || host::hasStrands(scene_)) {
+    append(key, std::initializer_list<double>{moment.seconds, state.smokeDensity, state.strandWidth,
+                                              state.strandOpacity, double(moment.isCoarse)});
+    for (const glm::dmat4& matrix : worldFromNode)
+      append(key, matrix);
+  }
+  for (const host::FogBank& bank : scene_.fog)
+    append(key, worldFromNode[static_cast<std::size_t>(bank.node)]);
   for (const MappedLight& light : mapped_) {
     key.push_back(static_cast<double>(light.views.size()));
     key.insert(key.end(), light.views.begin(), light.views.end());

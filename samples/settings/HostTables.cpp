@@ -121,11 +121,13 @@ const Table<State>& volumesTable() {
   static const Table<State> table{
       "State",
       {
-          switchOf("avsm", &State::avsm, "smoke and strands cast shadows")
-              .withOption("--no-avsm", OptionForm::FlagOff, "smoke and strands cast no shadows"),
-          switchOf("eyeCurves", &State::eyeCurves, "and smoke dims the shafts behind it")
-              .withOption("--no-eye-curves", OptionForm::FlagOff, "shafts shine through smoke before them"),
-          number("avsmSize", &State::avsmSize, from(1, 4096), "texels per side of a light's map of smoke and strands")
+          switchOf("avsm", &State::avsm, "smoke, fog and strands cast shadows, and fog is drawn")
+              .withOption("--no-avsm", OptionForm::FlagOff,
+                          "smoke, fog and strands cast no shadows, and fog is not drawn"),
+          switchOf("eyeCurves", &State::eyeCurves, "and smoke dims the shafts behind it, and fog is drawn")
+              .withOption("--no-eye-curves", OptionForm::FlagOff,
+                          "shafts shine through smoke before them, and fog is not drawn"),
+          number("avsmSize", &State::avsmSize, from(1, 4096), "texels per side of the maps of smoke, fog and strands")
               .withOption("--avsm-size")
               .withSlider(32, 1024, true),
           number("avsmNodes", &State::avsmNodes, only({4, 8, 12, 16}), "nodes of its curves")

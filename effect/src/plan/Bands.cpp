@@ -16,7 +16,7 @@ constexpr double kSample = 1;   // a look at another of a pixel's depths
 constexpr double kStep = 0.25;  // a texel of the map, or a node of a row's tree
 
 // How much longer a step takes in other variants.
-constexpr double kLamp = 1.5, kColoured = 1.2, kGlass = 1.5, kCurves = 3, kEyeCurves = 2, kBilinear = 4;
+constexpr double kLamp = 1.5, kColoured = 1.2, kGlass = 1.5, kCurves = 3, kEyeCurves = 2, kFog = 2, kBilinear = 4;
 constexpr double kLayers[] = {1, 1.2, 2, 4}; // of a medium that thins out with height, by LightVariant::layers
 
 // Nodes and groups of texels that a ray looks at in a view, whatever its row's length: more than in any scene of ours
@@ -54,8 +54,8 @@ bool readsSamples(const PassRow& row) {
 
 double stepNanoseconds(const LightVariant& light) {
   return kStep * (light.lightKind == 0 ? 1 : kLamp) * (light.monochrome ? 1 : kColoured) * (light.glass ? kGlass : 1) *
-         (light.curves ? kCurves : 1) * (light.eyeCurves ? kEyeCurves : 1) * (light.bilinear ? kBilinear : 1) *
-         kLayers[light.layers];
+         (light.curves ? kCurves : 1) * (light.eyeCurves ? kEyeCurves : 1) * (light.fog ? kFog : 1) *
+         (light.bilinear ? kBilinear : 1) * kLayers[light.layers];
 }
 
 // The length of even parts of a line that are at most so long: whole blocks, if that leaves any.
