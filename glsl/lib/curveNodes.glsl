@@ -26,14 +26,16 @@ float curveUpTo(usampler2DArray map, int texels, int isPacked, ivec3 texel, floa
   vec2 before = vec2(-1e9, 1.0);
   for (int i = 0; i < texels; ++i) {
     CurveNodes nodes = curveNodes(map, texels, isPacked, texel, i);
-    for (int k = 0; k < 4; ++k) {
-      vec2 node = vec2(nodes.depths[k], nodes.passed[k]);
-      if (node.x >= depth) {
-        float share = clamp((depth - before.x) / max(node.x - before.x, 1e-30), 0.0, 1.0);
-        return node.y > kLeastPassed ? before.y * pow(node.y / before.y, share) : mix(before.y, node.y, share);
-      }
-      before = node;
+    vec4 d = nodes.depths, p = nodes.passed;
+    if (d.w >= depth) { // written out: llvmpipe counts turns of loops
+      vec2 behind = vec2(d.x, p.x);
+      if (d.x < depth) { before = vec2(d.x, p.x); behind = vec2(d.y, p.y); }
+      if (d.y < depth) { before = vec2(d.y, p.y); behind = vec2(d.z, p.z); }
+      if (d.z < depth) { before = vec2(d.z, p.z); behind = vec2(d.w, p.w); }
+      float share = clamp((depth - before.x) / max(behind.x - before.x, 1e-30), 0.0, 1.0);
+      return behind.y > kLeastPassed ? before.y * pow(behind.y / before.y, share) : mix(before.y, behind.y, share);
     }
+    before = vec2(d.w, p.w);
   }
   return before.y;
 }
@@ -53,11 +55,13 @@ vec2 curveBetween(usampler2DArray map, int texels, int isPacked, ivec3 texel, fl
   vec2 sum = vec2(0.0), before = vec2(-1e9, 1.0);
   for (int i = 0; i < texels && before.x < high; ++i) {
     CurveNodes nodes = curveNodes(map, texels, isPacked, texel, i);
-    for (int k = 0; k < 4; ++k) {
-      vec2 node = vec2(nodes.depths[k], nodes.passed[k]);
-      addLine(before, node, low, high, sum);
-      before = node;
-    }
+    vec2 first = vec2(nodes.depths.x, nodes.passed.x), second = vec2(nodes.depths.y, nodes.passed.y);
+    vec2 third = vec2(nodes.depths.z, nodes.passed.z), last = vec2(nodes.depths.w, nodes.passed.w);
+    addLine(before, first, low, high, sum); // written out: llvmpipe counts turns of loops
+    addLine(first, second, low, high, sum);
+    addLine(second, third, low, high, sum);
+    addLine(third, last, low, high, sum);
+    before = last;
   }
   addLine(before, vec2(1e9, before.y), low, high, sum);
   return sum / (high - low);

@@ -448,8 +448,8 @@ struct MovingObject {
 /// lights: with an albedo it scatters what it takes, as a medium of its own, and with dimsBackground it dims the
 /// picture behind as the medium does. What it takes of light on its way there is for Light::curves to say, into which
 /// the same is captured from the light; Light::scatteringScale counts for it, too. Low rank is Tree then, and a change
-/// of the curves draws all anew. Lights' programs are others than without: prepare() compiles those of the frame that
-/// it is given.
+/// of the curves draws all anew. Lights' programs are others than without, and with an albedo others again: prepare()
+/// compiles those of the frame that it is given. Rays to the sky end at Medium::farDistance in fog, too.
 struct EyeCurves {
   AvsmCurves curves; ///< of layer 0; texture 0: nothing stands before the eye
   double nearDistance =
