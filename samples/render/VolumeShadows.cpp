@@ -18,7 +18,7 @@ void VolumeShadows::update(host::SceneRenderer& renderer, std::vector<tyndall::L
   maps_.resize(lights.size());
   for (std::size_t i = 0; i < lights.size(); ++i) {
     tyndall::Light& light = lights[i];
-    create(maps_[i], static_cast<int>(light.shadow.views.size()));
+    create(maps_[i], static_cast<int>(light.shadow.views.size()), nodes_);
     if (!maps_[i].avsm) continue;
     capture(maps_[i], light, [&] { renderer.captureVolumes(light, size_); });
     light.curves = maps_[i].avsm->curves();
@@ -29,12 +29,14 @@ tyndall::EyeCurves VolumeShadows::before(host::SceneRenderer& renderer, const ty
                                          const tyndall::Rectangle& image, double nearDistance, double farDistance) {
   tyndall::Light eye;
   require(tyndall::eyeLight(camera, image, nearDistance, farDistance, eye));
-  create(eye_, 1);
+  // What curves of few nodes are off by shows as blotches on what stands within lit fog.
+  constexpr int kFogNodes = 16;
+  create(eye_, 1, fog_.empty() ? nodes_ : kFogNodes);
   capture(eye_, eye, [&] { renderer.captureSmoke(eye, size_); });
   return {eye_.avsm->curves(), nearDistance, farDistance};
 }
 
-void VolumeShadows::create(Map& map, int layers) const {
+void VolumeShadows::create(Map& map, int layers, int nodes) const {
   if (layers == map.layers) return;
   map = {};
   map.layers = layers;
@@ -44,7 +46,7 @@ void VolumeShadows::create(Map& map, int layers) const {
   config.timing = timing_;
   config.size = size_;
   config.layers = layers;
-  config.nodes = nodes_;
+  config.nodes = nodes;
   tyndall::AvsmResult created = tyndall::Avsm::create(config);
   require(created.status);
   map.avsm = std::move(created.avsm);

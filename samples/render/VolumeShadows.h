@@ -47,7 +47,7 @@ private:
     double captureMilliseconds = 0;
   };
 
-  void create(Map& map, int layers) const;
+  void create(Map& map, int layers, int nodes) const;
   void capture(Map& map, const tyndall::Light& light, const std::function<void()>& draw) const;
 
   tyndall::GlLoader loader_;
