@@ -41,12 +41,14 @@ void quay(MeshBuilder& mesh, const Paints& p) {
   mesh.quad({-160, kWater, 40}, {160, kWater, 40}, {160, kWater, -220}, {-160, kWater, -220});
   mesh.material(p.stone).box({kQuay, kWater - 1, -70}, {60, -0.18, 30});
   mesh.material(p.kerb);
-  for (double z = 29; z > -70; z -= 2)
+  for (int i = 0; i < 50; ++i) {
+    const double z = 29 - 2 * i;
     mesh.box({kQuay - 0.12, -0.18, z - 0.97}, {kQuay + 0.75, 0, z + 0.97});
+  }
   mesh.material(p.stone).box({kQuay + 0.75, -0.18, -70}, {60, -0.03, 30});
   mesh.material(p.iron);
-  for (double z = 11; z > -40; z -= 6) { // bollards
-    mesh.frame(glm::translate(glm::dmat4(1), {kQuay + 0.35, 0, z}));
+  for (int i = 0; i < 9; ++i) { // bollards
+    mesh.frame(glm::translate(glm::dmat4(1), {kQuay + 0.35, 0, 11 - 6 * i}));
     mesh.lathe({{0.20, 0}, {0.15, 0.06}, {0.13, 0.34}, {0.21, 0.42}, {0.19, 0.50}, {0, 0.54}}, 20);
   }
   mesh.frame(glm::dmat4(1));
@@ -120,8 +122,10 @@ void ship(MeshBuilder& mesh, const Paints& p) {
   mesh.box({-0.95, 3.3, -4.2}, {0.95, 4.7, -2.2});
   mesh.material(p.tar).box({-1.1, 4.7, -4.35}, {1.1, 4.82, -1.95});
   mesh.material(p.lit);
-  for (double x = -0.75; x < 0.7; x += 0.5)
+  for (int i = 0; i < 3; ++i) {
+    const double x = -0.75 + 0.5 * i;
     mesh.box({x, 3.75, -2.22}, {x + 0.36, 4.4, -2.17});
+  }
   mesh.material(p.red).tube({{0, 4.6, -3.8}, {0, 6.0, -3.9}}, 0.32, 16);
   mesh.material(p.iron).tube({{0, 1.4, 2.2}, {0, 9.2, 2.0}}, 0.11, 10);
   mesh.tube({{0, 4.7, -2.6}, {0, 7.8, -2.7}}, 0.08, 10);

@@ -1,5 +1,7 @@
 #include "VolumeRig.h"
 
+#include "support/Catch.h"
+
 #include <cmath>
 #include <random>
 #include <scene/ImageFile.h>
