@@ -139,6 +139,26 @@ TEST_CASE("fog: a sheet that takes all scatters its albedo's share of the light 
   }
 }
 
+TEST_CASE("fog: a sheet where it begins is lit on every ray") {
+  if (!tests::hasAvsm()) return;
+  std::vector<tests::Captured> all;
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) {
+      const float depth = 0.2F + 0.001F * static_cast<float>(x) + 0.0007F * static_cast<float>(y);
+      all.push_back({{x, y, 0}, depth, depth, 0.5F});
+      all.push_back({{x, y, 0}, depth, depth + 0.4F, 0.4F});
+    }
+  for (const LightKind kind : {LightKind::Directional, LightKind::Spot}) {
+    tests::SceneRig rig = sceneOf(kind, false);
+    rig.frame.settings.technique = Technique::Exact;
+    Smoke smoke;
+    smoke.enter(rig, all);
+    lightFog(rig);
+    CAPTURE(static_cast<int>(kind));
+    CHECK(rRmse(rig.render().inscatter, rig.reference().inscatter) <= 0.01);
+  }
+}
+
 TEST_CASE("fog: transmittance is dimmed alike in full, in parts and alone") {
   if (!tests::hasAvsm()) return;
   tests::SceneRig rig = sceneOf(LightKind::Directional, false);
