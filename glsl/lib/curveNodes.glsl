@@ -27,7 +27,7 @@ float curveUpTo(usampler2DArray map, int texels, int isPacked, ivec3 texel, floa
   for (int i = 0; i < texels; ++i) {
     CurveNodes nodes = curveNodes(map, texels, isPacked, texel, i);
     vec4 d = nodes.depths, p = nodes.passed;
-    if (d.w >= depth) { // written out: llvmpipe counts turns of loops
+    if (d.w >= depth) { // between which two of them
       vec2 behind = vec2(d.x, p.x);
       if (d.x < depth) { before = vec2(d.x, p.x); behind = vec2(d.y, p.y); }
       if (d.y < depth) { before = vec2(d.y, p.y); behind = vec2(d.z, p.z); }
@@ -55,13 +55,11 @@ vec2 curveBetween(usampler2DArray map, int texels, int isPacked, ivec3 texel, fl
   vec2 sum = vec2(0.0), before = vec2(-1e9, 1.0);
   for (int i = 0; i < texels && before.x < high; ++i) {
     CurveNodes nodes = curveNodes(map, texels, isPacked, texel, i);
-    vec2 first = vec2(nodes.depths.x, nodes.passed.x), second = vec2(nodes.depths.y, nodes.passed.y);
-    vec2 third = vec2(nodes.depths.z, nodes.passed.z), last = vec2(nodes.depths.w, nodes.passed.w);
-    addLine(before, first, low, high, sum); // written out: llvmpipe counts turns of loops
-    addLine(first, second, low, high, sum);
-    addLine(second, third, low, high, sum);
-    addLine(third, last, low, high, sum);
-    before = last;
+    for (int k = 0; k < 4; ++k) {
+      vec2 node = vec2(nodes.depths[k], nodes.passed[k]);
+      addLine(before, node, low, high, sum);
+      before = node;
+    }
   }
   addLine(before, vec2(1e9, before.y), low, high, sum);
   return sum / (high - low);

@@ -1,5 +1,7 @@
 #include "reference/Curves.h"
 
+#include "reference/CameraRays.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -17,13 +19,6 @@ double transmittanceAt(const std::vector<Segment>& segments, double depth) {
 }
 
 namespace {
-
-glm::dmat4 matrixOf(const tyndall::Mat4& m) {
-  glm::dmat4 result;
-  for (int i = 0; i < 16; ++i)
-    result[i / 4][i % 4] = m[static_cast<std::size_t>(i)];
-  return result;
-}
 
 double onCurve(const std::vector<glm::dvec2>& curve, double depth) {
   glm::dvec2 before(0, 1);
@@ -61,7 +56,7 @@ double dimming(const CurveMap& map, const tyndall::Light& light, const glm::dvec
   const std::size_t count = light.shadow.views.size();
   const bool zeroToOne = light.shadow.clipDepth == tyndall::ClipDepth::ZeroToOne;
   for (std::size_t v = 0; v < count; ++v) {
-    const glm::dmat4 clipFromWorld = matrixOf(light.shadow.views[v].clipFromWorld);
+    const glm::dmat4 clipFromWorld = toMat4(light.shadow.views[v].clipFromWorld);
     const bool bounded = light.kind == tyndall::LightKind::Directional && v + 1 < count;
     const auto place = placeIn(clipFromWorld, zeroToOne, bounded, point);
     if (!place) continue;

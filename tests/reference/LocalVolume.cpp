@@ -1,5 +1,7 @@
 #include "reference/LocalVolume.h"
 
+#include "reference/CameraRays.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -54,10 +56,7 @@ double densityAt(const tyndall::AvsmVolume& volume, const DensityGrid& grid, con
 
 double opticalDepth(const tyndall::AvsmVolume& volume, const DensityGrid& grid, const glm::dvec3& from,
                     const glm::dvec3& to) {
-  glm::dmat4 worldFromVolume;
-  for (int i = 0; i < 16; ++i)
-    worldFromVolume[i / 4][i % 4] = volume.worldFromVolume[static_cast<std::size_t>(i)];
-  const glm::dmat4 volumeFromWorld = glm::inverse(worldFromVolume);
+  const glm::dmat4 volumeFromWorld = glm::inverse(toMat4(volume.worldFromVolume));
   const glm::dvec3 a(volumeFromWorld * glm::dvec4(from, 1)), d = glm::dvec3(volumeFromWorld * glm::dvec4(to, 1)) - a;
   std::vector<double> cuts = {0, 1};
   const auto addPlane = [&](int axis, double place) {

@@ -4,6 +4,7 @@
 #include "LoadFunctions.h"
 #include "PassRecorder.h"
 #include "Rounding.h"
+#include "avsm/CheckAvsm.h"
 #include "avsm/Curves.h"
 #include "avsm/Lists.h"
 #include "avsm/Particles.h"
@@ -36,57 +37,6 @@
 namespace tyndall {
 
 namespace {
-
-Status invalid(const std::string& field, const std::string& value, const std::string& rule) {
-  return {StatusCode::InvalidConfig, "AvsmConfig::" + field + " is " + value + ": " + rule};
-}
-
-Status checkConfig(const AvsmConfig& config) {
-  if (!config.loader) return invalid("loader", "null", "must resolve GL functions");
-  if (config.timing < PassTiming::Off || config.timing > PassTiming::Finish)
-    return invalid("timing", std::to_string(static_cast<int>(config.timing)), "must be one of the enumerators");
-  if (config.size < 1 || config.size > 4096) return invalid("size", std::to_string(config.size), "must be 1 to 4096");
-  if (config.layers < 1 || config.layers > kMaxShadowViews)
-    return invalid("layers", std::to_string(config.layers), "must be 1 to 6");
-  if (config.nodes < 4 || config.nodes > avsm::kMaxNodes || config.nodes % 4 != 0)
-    return invalid("nodes", std::to_string(config.nodes), "must be 4, 8, 12 or 16");
-  if (config.reduction < CurveReduction::WholeCurve || config.reduction > CurveReduction::InOrder)
-    return invalid("reduction", std::to_string(static_cast<int>(config.reduction)), "must be one of the enumerators");
-  if (config.state < StateMode::Restore || config.state > StateMode::Leave)
-    return invalid("state", std::to_string(static_cast<int>(config.state)), "must be one of the enumerators");
-  return {};
-}
-
-// Layers of the curves' texture.
-int curveLayersOf(const AvsmConfig& config) { return config.layers * config.nodes / (config.packed ? 4 : 2); }
-
-Status checkLimits(const gl::Functions& gl, const AvsmConfig& config) {
-  const std::string size = std::to_string(config.size), layers = std::to_string(config.layers);
-  gl::Int width = 0, depth = 0, block = 0;
-  gl.GetIntegerv(gl::MAX_TEXTURE_SIZE, &width);
-  gl.GetIntegerv(gl::MAX_ARRAY_TEXTURE_LAYERS, &depth);
-  gl.GetIntegerv(gl::MAX_SHADER_STORAGE_BLOCK_SIZE, &block);
-  if (config.size > width) return invalid("size", size, "this context has " + std::to_string(width) + " texels a side");
-  if (curveLayersOf(config) > depth)
-    return invalid("layers", layers, "this context has " + std::to_string(depth) + " layers of a texture");
-  const std::uint64_t bytes = avsm::leastBufferBytes(config.size, config.layers);
-  if (block > 0 && bytes > static_cast<std::uint64_t>(block))
-    return invalid("size", size,
-                   "with " + layers + " layers it needs storage buffers of " + std::to_string(bytes) +
-                       " bytes, this context has " + std::to_string(block));
-  return {};
-}
-
-// What a function of OpenGL 4.3 that is missing is called; empty if none is.
-std::string missingFunction(const gl::Functions& gl) {
-  const std::pair<const char*, bool> all[] = {
-      {"glDispatchCompute", gl.DispatchCompute},       {"glMemoryBarrier", gl.MemoryBarrier},
-      {"glBindImageTexture", gl.BindImageTexture},     {"glTexStorage3D", gl.TexStorage3D},
-      {"glClearBufferSubData", gl.ClearBufferSubData}, {"glFramebufferTextureLayer", gl.FramebufferTextureLayer}};
-  for (const auto& [name, known] : all)
-    if (!known) return name;
-  return {};
-}
 
 // A dispatch over the map.
 struct Pass {
@@ -168,7 +118,7 @@ struct Avsm::State {
   Pass particlesPass() const { return {"particles", "passes/avsmParticles.comp", curveDefinitions()}; }
   std::uint64_t curveBytes() const {
     return std::uint64_t{16} * static_cast<std::uint64_t>(config.size) * static_cast<std::uint64_t>(config.size) *
-           static_cast<std::uint64_t>(curveLayersOf(config));
+           static_cast<std::uint64_t>(avsm::curveLayersOf(config));
   }
   gl::Definitions curveDefinitions() const { return avsm::curveDefinitions(config.nodes, config.packed); }
 };
@@ -177,14 +127,14 @@ Avsm::Avsm(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Avsm::~Avsm() = default;
 
 AvsmResult Avsm::create(const AvsmConfig& config) {
-  if (Status s = checkConfig(config); !s) return {nullptr, s};
+  if (Status s = avsm::checkConfig(config); !s) return {nullptr, s};
   auto state = std::make_unique<State>(config);
   const gl::Functions& gl = state->gl;
   if (Status s = loadFunctions(state->gl, config.loader, 43, " for an adaptive volumetric shadow map"); !s)
     return {nullptr, s};
-  if (const std::string function = missingFunction(gl); !function.empty())
+  if (const std::string function = avsm::missingFunction(gl); !function.empty())
     return {nullptr, {StatusCode::ContextTooOld, "the loader knows no " + function}};
-  if (Status s = checkLimits(gl, config); !s) return {nullptr, s};
+  if (Status s = avsm::checkLimits(gl, config); !s) return {nullptr, s};
   if (Status s = checkLists(gl, "Avsm::create"); !s) return {nullptr, s};
   if (Status s = state->watch.finish(state->makeObjects()); !s) return {nullptr, s};
   return {std::unique_ptr<Avsm>(new Avsm(std::move(state))), {}};
@@ -366,7 +316,7 @@ Status Avsm::State::bindCurves(int layer) {
 Status Avsm::State::attachCurves(int layer) {
   if (!framebuffer) framebuffer = gl::Framebuffer(gl);
   gl.BindFramebuffer(gl::DRAW_FRAMEBUFFER, framebuffer.name());
-  const int count = curveLayersOf(config) / config.layers;
+  const int count = avsm::curveLayersOf(config) / config.layers;
   std::vector<gl::Enum> buffers;
   for (int i = 0; i < count; ++i) {
     buffers.push_back(gl::COLOR_ATTACHMENT0 + static_cast<gl::Enum>(i));
@@ -394,7 +344,7 @@ Status Avsm::State::allocate() {
   gl.BindBuffer(gl::UNIFORM_BUFFER, particlesBlock.name());
   gl.BufferData(gl::UNIFORM_BUFFER, sizeof(avsm::ParticlesBlock), nullptr, gl::DYNAMIC_DRAW);
   gl.BindTexture(gl::TEXTURE_2D_ARRAY, curves.name());
-  gl.TexStorage3D(gl::TEXTURE_2D_ARRAY, 1, gl::RGBA32UI, config.size, config.size, curveLayersOf(config));
+  gl.TexStorage3D(gl::TEXTURE_2D_ARRAY, 1, gl::RGBA32UI, config.size, config.size, avsm::curveLayersOf(config));
   if (errors.take() != gl::NO_ERROR)
     return {StatusCode::OutOfMemory, "GL could not allocate " + std::to_string(curveBytes()) + " bytes for curves"};
   for (const gl::Enum filter : {gl::TEXTURE_MIN_FILTER, gl::TEXTURE_MAG_FILTER})

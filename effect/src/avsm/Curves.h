@@ -3,6 +3,8 @@
 
 #include "gl/Variant.h"
 
+#include <tyndall/avsm.h>
+
 namespace tyndall::avsm {
 
 inline constexpr int kMaxNodes = 16; ///< a multiple of 4, as all numbers of nodes
@@ -10,6 +12,9 @@ inline constexpr int kMaxNodes = 16; ///< a multiple of 4, as all numbers of nod
 inline gl::Definitions curveDefinitions(int nodes, bool packed) {
   return {{"TYNDALL_CURVE_NODES", nodes}, {"TYNDALL_CURVE_PACKED", packed ? 1 : 0}};
 }
+
+/// Layers of the curves' texture.
+inline int curveLayersOf(const AvsmConfig& config) { return config.layers * config.nodes / (config.packed ? 4 : 2); }
 
 /// Of passes/avsmVolumes.comp, which captures, or inserts into curves.
 inline gl::Definitions volumeDefinitions(int nodes, bool packed, bool streamed) {

@@ -1,5 +1,6 @@
 #include "avsm/Particles.h"
 
+#include "avsm/CheckAvsm.h"
 #include "gl/Enums.h"
 #include "optics/Matrices.h"
 
@@ -10,35 +11,31 @@ namespace tyndall::avsm {
 
 namespace {
 
-Status invalid(const std::string& field, const std::string& value, const std::string& rule) {
-  return {StatusCode::InvalidFrame, field + " is " + value + ": " + rule};
-}
-
 Status checkBuffer(const gl::Functions& gl, const AvsmParticles& particles) {
-  const auto refuse = [](const std::string& field, std::uint64_t value, const std::string& rule) {
-    return invalid("particles." + field, std::to_string(value), rule);
+  const auto refused = [](const std::string& field, std::uint64_t value, const std::string& rule) {
+    return refuse("particles." + field, std::to_string(value), rule);
   };
   if (particles.stride < kParticleBytes || particles.stride > 256 || particles.stride % 4 != 0)
-    return refuse("stride", particles.stride, "must be a multiple of 4 from 20 to 256");
-  if (particles.offset % 4 != 0) return refuse("offset", particles.offset, "must be a multiple of 4");
+    return refused("stride", particles.stride, "must be a multiple of 4 from 20 to 256");
+  if (particles.offset % 4 != 0) return refused("offset", particles.offset, "must be a multiple of 4");
   for (const double value : particles.origin)
-    if (!std::isfinite(value)) return invalid("particles.origin", std::to_string(value), "must be finite");
+    if (!std::isfinite(value)) return refuse("particles.origin", std::to_string(value), "must be finite");
   if (!gl.IsBuffer(particles.buffer))
-    return refuse("buffer", particles.buffer, "not the name of a buffer in this context (deleted, or never bound?)");
+    return refused("buffer", particles.buffer, "not the name of a buffer in this context (deleted, or never bound?)");
   gl.BindBuffer(gl::SHADER_STORAGE_BUFFER, particles.buffer);
   gl::Int64 size = 0;
   gl.GetBufferParameteri64v(gl::SHADER_STORAGE_BUFFER, gl::BUFFER_SIZE, &size);
   const auto bytes = static_cast<std::uint64_t>(size);
   const std::uint64_t needed = std::uint64_t{particles.stride} * (particles.count - 1) + kParticleBytes;
   if (particles.offset > bytes || needed > bytes - particles.offset)
-    return refuse("count", particles.count,
-                  "these need " + std::to_string(needed) + " bytes from " + std::to_string(particles.offset) +
-                      " on, the buffer has " + std::to_string(bytes));
+    return refused("count", particles.count,
+                   "these need " + std::to_string(needed) + " bytes from " + std::to_string(particles.offset) +
+                       " on, the buffer has " + std::to_string(bytes));
   gl::Int mapped = 0, access = 0;
   gl.GetBufferParameteriv(gl::SHADER_STORAGE_BUFFER, gl::BUFFER_MAPPED, &mapped);
   gl.GetBufferParameteriv(gl::SHADER_STORAGE_BUFFER, gl::BUFFER_ACCESS_FLAGS, &access);
   if (mapped && !(static_cast<gl::Enum>(access) & gl::MAP_PERSISTENT_BIT))
-    return refuse("buffer", particles.buffer, "it is mapped");
+    return refused("buffer", particles.buffer, "it is mapped");
   return {};
 }
 
@@ -47,8 +44,8 @@ Status checkBuffer(const gl::Functions& gl, const AvsmParticles& particles) {
 Status checkViews(const Light& light, int layers) {
   const std::size_t views = light.shadow.views.size();
   if (views < 1 || views > static_cast<std::size_t>(layers))
-    return invalid("light.shadow.views.size()", std::to_string(views),
-                   "must be 1 to " + std::to_string(layers) + ", the layers of the map");
+    return refuse("light.shadow.views.size()", std::to_string(views),
+                  "must be 1 to " + std::to_string(layers) + ", the layers of the map");
   for (std::size_t i = 0; i < views; ++i) {
     std::array<double, 4> depth{};
     if (Status s = avsmDepth(light, static_cast<int>(i), depth); !s) return s;

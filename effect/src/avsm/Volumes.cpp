@@ -3,6 +3,7 @@
 #include "CheckValues.h"
 #include "InspectTexture.h"
 #include "Rounding.h"
+#include "avsm/CheckAvsm.h"
 #include "gl/Enums.h"
 #include "gl/OwnErrors.h"
 #include "optics/Matrices.h"
@@ -18,10 +19,6 @@ constexpr int kBrick = 4;      // texels of a grid, by axis, whose range is know
 constexpr int kTexelGroup = 8; // texels of the map across and up a work group,
 constexpr int kKeptFrames = 8; // that ranges live for without being named
 constexpr int kNodeGroup = 4;  // nodes of a level of ranges by axis
-
-Status refuse(const std::string& field, const std::string& value, const std::string& rule) {
-  return {StatusCode::InvalidFrame, field + (value.empty() ? "" : " is " + value) + ": " + rule};
-}
 
 int powerOfTwoFrom(int least) {
   int power = 1;

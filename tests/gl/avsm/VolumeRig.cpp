@@ -1,5 +1,6 @@
 #include "VolumeRig.h"
 
+#include "reference/CameraRays.h"
 #include "support/Catch.h"
 
 #include <cmath>
@@ -9,17 +10,6 @@
 namespace tests {
 
 using host::gl;
-
-namespace {
-
-glm::dmat4 matrixOf(const tyndall::Mat4& m) {
-  glm::dmat4 result;
-  for (int i = 0; i < 16; ++i)
-    result[i / 4][i % 4] = m[static_cast<std::size_t>(i)];
-  return result;
-}
-
-} // namespace
 
 DensityTexture::DensityTexture(const glm::ivec3& size, const std::vector<float>& values, GLenum format) {
   grid.size = size;
@@ -53,7 +43,7 @@ std::vector<float> noiseOf(const glm::ivec3& size, float emptyShare, GLenum form
 
 std::pair<glm::dvec3, glm::dvec3> texelRay(const tyndall::Light& light, int view, int size, int x, int y) {
   const glm::dmat4 worldFromClip =
-      glm::inverse(matrixOf(light.shadow.views[static_cast<std::size_t>(view)].clipFromWorld));
+      glm::inverse(reference::toMat4(light.shadow.views[static_cast<std::size_t>(view)].clipFromWorld));
   const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) / static_cast<double>(size) * 2.0 - 1.0;
   std::array<double, 4> depth{};
   REQUIRE(tyndall::avsmDepth(light, view, depth));

@@ -5,6 +5,7 @@ set(TYNDALL_UNIT_SCENE_SOURCES
   ${CMAKE_CURRENT_LIST_DIR}/BrokenFilesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/CameraLightTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/FileIoTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/FogTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GeometryTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GltfFile.cpp
   ${CMAKE_CURRENT_LIST_DIR}/GltfFile.h
@@ -19,6 +20,5 @@ set(TYNDALL_UNIT_SCENE_SOURCES
   ${CMAKE_CURRENT_LIST_DIR}/SampleFilesTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SceneRules.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SceneRules.h
-  ${CMAKE_CURRENT_LIST_DIR}/FogTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/SmokeTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/WrittenScenesTest.cpp)
