@@ -30,7 +30,9 @@ std::string Findings::text() const {
 std::string nameOf(const SweepOptions& options) {
   constexpr const char* kTimes[] = {", from the k-th on", ", only the k-th", ", by the seed k"};
   return nameOf(options.kind) + std::string(kTimes[static_cast<std::size_t>(options.times)]) +
-         (options.used ? ", used effect" : ", fresh effect");
+         (options.inTurn ? ", used and fresh effects in turn"
+          : options.used ? ", used effect"
+                         : ", fresh effect");
 }
 
 bool isStatusOf(Fault kind, const Status& status) {
@@ -69,10 +71,15 @@ FaultSweep::FaultSweep(FaultyContext& context, const FrameCase& item)
 Findings FaultSweep::run(const SweepOptions& options) {
   Findings findings;
   for (int seed = options.firstSeed; options.times == Times::Random && seed < options.firstSeed + options.seeds; ++seed)
-    runOnce(options, seed, findings);
+    runOnce(options, options.used, seed, findings);
   if (options.times == Times::Random) return findings;
-  for (int call = 1; call < kMostCalls; ++call)
-    if (!runOnce(options, call, findings)) return findings;
+  bool hasFailed = true; // a used effect has fewer calls left: where it has none, a fresh one may
+  for (int call = 1; call < kMostCalls; ++call) {
+    const bool used = options.used != (options.inTurn && call % 2 == 0);
+    const bool failed = runOnce(options, used, call, findings);
+    if (!failed && (!options.inTurn || !hasFailed)) return findings;
+    hasFailed = failed;
+  }
   findings.add("no end of calls", kMostCalls);
   return findings;
 }
@@ -89,9 +96,9 @@ bool FaultSweep::isExpected(const TargetContents& drawn) const {
   return bitEqual(drawn, full_) || bitEqual(drawn, continued_);
 }
 
-bool FaultSweep::runOnce(const SweepOptions& options, int call, Findings& findings) {
+bool FaultSweep::runOnce(const SweepOptions& options, bool used, int call, Findings& findings) {
   const std::unique_ptr<Effect> effect = newEffect(configFor(case_, context_.loader()));
-  if (options.used) other_.draw(*effect);
+  if (used) other_.draw(*effect);
   stage_.rewind();
   drawEarlier(*effect);
   stage_.fill();

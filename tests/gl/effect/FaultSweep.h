@@ -30,6 +30,7 @@ struct SweepOptions {
   bool used = false;            ///< by an effect that has drawn another frame before
   GLenum pending = GL_NO_ERROR; ///< an error of the engine's own, which it has not asked for yet
   int firstSeed = 1, seeds = 0; ///< Times::Random
+  bool inTurn = false;          ///< fresh and used effects in turn, beginning with what `used` says
 };
 
 std::string nameOf(const SweepOptions& options);
@@ -49,7 +50,7 @@ public:
   Findings run(const SweepOptions& options);
 
 private:
-  bool runOnce(const SweepOptions& options, int call, Findings& findings);
+  bool runOnce(const SweepOptions& options, bool used, int call, Findings& findings);
   void drawEarlier(tyndall::Effect& effect);
   bool isExpected(const TargetContents& drawn) const;
 

@@ -1,6 +1,7 @@
 // OpenGL ES 3.2: the same sources draw the pictures of the core profile, with what a context has by extension and
 // without it; state is given back; what a context lacks is said by create(). The tests' context is one of ES, made by
 // EGL.
+#include "EmbeddedPrograms.h"
 #include "FakeContext.h"
 #include "FrameCases.h"
 #include "Mistakes.h"
@@ -378,12 +379,20 @@ TEST_CASE("OpenGL ES: what a context lacks has another way, or is said by create
   }
 }
 
-TEST_CASE("OpenGL ES: passes are timed, and every program compiles", "[gles][once][slow]") {
+TEST_CASE("OpenGL ES: passes are timed", "[gles][once]") {
   const std::unique_ptr<Effect> effect = tests::newEffect({tests::testContext().loader(), PassTiming::TimerQuery});
   tests::Stage stage(tests::frameCase("epipolar, two lights, all targets"));
   stage.draw(*effect);
   CHECK_FALSE(effect->statistics().passes.empty());
-  const Status status = effect->compileAll();
-  INFO(status.message);
-  CHECK(status);
+}
+
+// All of them are read by the Khronos reference compiler (shaders.reference).
+TEST_CASE("OpenGL ES: programs build, with any two definitions", "[gles][once][slow]") {
+  for (const bool dualSource : {true, false}) {
+    CAPTURE(dualSource);
+    const tests::BuiltPrograms built = tests::buildEmbeddedPairs(dualSource);
+    CAPTURE(built.count, built.failures);
+    CHECK(built.count >= 300);
+    CHECK(built.failures.empty());
+  }
 }

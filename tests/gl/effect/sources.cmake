@@ -13,6 +13,7 @@ set(TYNDALL_GL_EFFECT_TESTS
   ${CMAKE_CURRENT_LIST_DIR}/DriverFailureTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/DriverTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EffectContextTest.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/EmbeddedPrograms.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EngineDepthTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EngineErrorTest.cpp
   ${CMAKE_CURRENT_LIST_DIR}/EpipolarInputTest.cpp
