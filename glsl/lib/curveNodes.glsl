@@ -18,27 +18,7 @@ vec3 curveEnds(usampler2DArray map, int texels, int isPacked, ivec3 texel) {
   return vec3(curveNodes(map, texels, isPacked, texel, 0).depths.x, last.depths.w, last.passed.w);
 }
 
-const float kLeastPassed = 1e-6; // of an even medium, which would let nothing through
-
-// What passes up to a depth, before what is at that depth itself, as if between two nodes the same were everywhere: so that what is taken there
-// changes as it does in fog, not in steps.
-float curveUpTo(usampler2DArray map, int texels, int isPacked, ivec3 texel, float depth) {
-  vec2 before = vec2(-1e9, 1.0);
-  for (int i = 0; i < texels; ++i) {
-    CurveNodes nodes = curveNodes(map, texels, isPacked, texel, i);
-    vec4 d = nodes.depths, p = nodes.passed;
-    if (d.w >= depth) { // between which two of them
-      vec2 behind = vec2(d.x, p.x);
-      if (d.x < depth) { before = vec2(d.x, p.x); behind = vec2(d.y, p.y); }
-      if (d.y < depth) { before = vec2(d.y, p.y); behind = vec2(d.z, p.z); }
-      if (d.z < depth) { before = vec2(d.z, p.z); behind = vec2(d.w, p.w); }
-      float share = clamp((depth - before.x) / max(behind.x - before.x, 1e-30), 0.0, 1.0);
-      return behind.y > kLeastPassed ? before.y * pow(behind.y / before.y, share) : mix(before.y, behind.y, share);
-    }
-    before = vec2(d.w, p.w);
-  }
-  return before.y;
-}
+const float kLeastPassed = 1e-6; // of an even medium, which would let nothing through: behind it what passes falls along a line
 
 // Adds the part of the line from node a to node b (depth, transmittance) between two depths to an integral and a first moment.
 void addLine(vec2 a, vec2 b, float low, float high, inout vec2 sum) {
@@ -50,17 +30,44 @@ void addLine(vec2 a, vec2 b, float low, float high, inout vec2 sum) {
   sum += (to - from) * vec2(0.5 * (va + vb), (va * xa + (va + vb) * (xa + xb) + vb * xb) / 6.0);
 }
 
-// Mean transmittance between two depths, low < high, and its first moment (from -1 to 1).
-vec2 curveBetween(usampler2DArray map, int texels, int isPacked, ivec3 texel, float low, float high) {
+// A part of a curve: mean transmittance and its first moment (from -1 to 1), as lines between nodes have it; and what passes up to three depths, before what
+// is at those depths themselves, as if between two nodes the same were everywhere: so that what is taken there changes as it does in fog, not in steps.
+struct CurvePart {
+  vec2 passed;
+  vec3 upTo;
+};
+
+// From one depth to another, low < high, and up to depths that are no less than low and no more than high. All nodes of the texels before `first` are nearer
+// than low; as it is left, nearer than high: a walk along a curve reads each of its texels about once.
+CurvePart curvePart(usampler2DArray map, int texels, int isPacked, ivec3 texel, float low, float high, vec3 depths, inout int first) {
   vec2 sum = vec2(0.0), before = vec2(-1e9, 1.0);
-  for (int i = 0; i < texels && before.x < high; ++i) {
+  if (first > 0) {
+    CurveNodes last = curveNodes(map, texels, isPacked, texel, first - 1);
+    before = vec2(last.depths.w, last.passed.w);
+  }
+  vec3 fall = vec3(log2(before.y)), rest = vec3(1.0); // of what passes up to the depths: where something comes through, and where nothing does
+  for (int i = first; i < texels && before.x < high; ++i) {
     CurveNodes nodes = curveNodes(map, texels, isPacked, texel, i);
+    first = i;
     for (int k = 0; k < 4; ++k) {
       vec2 node = vec2(nodes.depths[k], nodes.passed[k]);
       addLine(before, node, low, high, sum);
+      vec3 share = clamp((depths - before.x) * (1.0 / max(node.x - before.x, 1e-30)), 0.0, 1.0);
+      if (node.y > kLeastPassed) fall += share * log2(node.y / before.y);
+      else rest -= share;
       before = node;
     }
   }
   addLine(before, vec2(1e9, before.y), low, high, sum);
-  return sum / (high - low);
+  return CurvePart(sum / (high - low), exp2(fall) * max(rest, 0.0));
+}
+
+// The first of these alone, and the second.
+vec2 curveBetween(usampler2DArray map, int texels, int isPacked, ivec3 texel, float low, float high) {
+  int first = 0;
+  return curvePart(map, texels, isPacked, texel, low, high, vec3(low), first).passed;
+}
+float curveUpTo(usampler2DArray map, int texels, int isPacked, ivec3 texel, float depth) {
+  int first = 0;
+  return curvePart(map, texels, isPacked, texel, depth, depth, vec3(depth), first).upTo.x;
 }

@@ -6,8 +6,9 @@ struct EyePath {
   vec2 depth;           // of the curves at s: x + s y
   float begin, end;     // of what dims, along the ray; the end is not behind the begin if nothing does
   float passed;         // behind it
+  float searched;       // depth up to which all nodes of the curves' texels before `texel` are nearer
+  int texel;
 #if FOG
-  vec2 known;           // what fog leaves up to x is y
   vec3 fog;             // what fog scatters of a light whose direction is one, in the unit of what addAirlight() adds
 #endif
 } eyePath;
@@ -28,8 +29,9 @@ void startEyePath(vec2 position, Ray ray) {
   eyePath.begin = max((ends.x - eyePath.depth.x) * inverse, 0.0);
   eyePath.end = (ends.y - eyePath.depth.x) * inverse;
   eyePath.passed = ends.z;
+  eyePath.searched = 0.0;
+  eyePath.texel = 0;
 #if FOG
-  eyePath.known = vec2(-1.0, 1.0);
   if (eyePath.end >= eyePath.begin) eyePath.begin = min(eyePath.begin, (1.0 - 1e-4) * eyePath.end); // what is at one depth has a place where it is lit
 #if LIGHT_KIND == 0
   vec3 sum = lightDirection + ray.direction, difference = lightDirection - ray.direction;
@@ -41,29 +43,41 @@ void startEyePath(vec2 position, Ray ray) {
 #endif
 }
 
-// Mean and first moment of the transmittance from one distance to another.
-vec2 eyePassed(float s0, float s1) {
-  float nearer = eyePath.depth.x + s0 * eyePath.depth.y, farther = max(eyePath.depth.x + s1 * eyePath.depth.y, nearer + 1e-7);
+// From one distance to another: mean and first moment of the transmittance and, FOG 1, the same of what is taken there, a unit of length: the latter from
+// the mean transmittance by Simpson's rule. Quick where it begins no nearer than the one before.
+struct EyePiece {
+  vec2 passed;
+#if FOG
+  vec2 taken;
+#endif
+};
+
+EyePiece eyePiece(float s0, float s1) {
+  float nearer = eyePath.depth.x + s0 * eyePath.depth.y, end = eyePath.depth.x + s1 * eyePath.depth.y, farther = max(end, nearer + 1e-7);
+  int first = nearer >= eyePath.searched ? eyePath.texel : 0, next = texelsPerEyeCurve;
   vec2 passed = vec2(0.0);
+  vec3 upTo = vec3(0.0);
   for (int k = 0; k < 4; ++k) {
     float weight;
     ivec3 texel = eyeTexel(eyePath.place, k, weight);
-    passed += weight * curveBetween(eyeCurves, texelsPerEyeCurve, eyeCurvesPacked, texel, nearer, farther);
+    int own = first;
+    CurvePart part = curvePart(eyeCurves, texelsPerEyeCurve, eyeCurvesPacked, texel, nearer, farther, vec3(nearer, 0.5 * (nearer + end), end), own);
+    passed += weight * part.passed;
+    upTo += weight * part.upTo;
+    next = min(next, own);
   }
-  return passed;
+  eyePath.texel = next;
+  eyePath.searched = farther;
+#if FOG
+  vec2 ends = vec2(s0 <= eyePath.begin ? 1.0 : upTo.x, s1 < eyePath.end ? upTo.z : eyePath.passed);
+  float taken = max(ends.x - ends.y, 0.0), moment = (ends.x + 4.0 * upTo.y + ends.y) / 3.0 - ends.x - ends.y;
+  return EyePiece(passed, vec2(taken, clamp(moment, -0.5 * taken, 0.5 * taken)) / max(s1 - s0, 1e-30));
+#else
+  return EyePiece(passed);
+#endif
 }
 
 #if FOG
-
-float eyeFogUpTo(float s) { return eyePassedUpTo(eyePath.place, eyePath.depth.x + s * eyePath.depth.y); }
-
-// Of what is taken there, a unit of length: its mean and first moment, the latter from the mean transmittance by Simpson's rule.
-vec2 eyeTaken(float s0, float s1) {
-  float nearer = s0 <= eyePath.begin ? 1.0 : s0 == eyePath.known.x ? eyePath.known.y : eyeFogUpTo(s0), farther = s1 < eyePath.end ? eyeFogUpTo(s1) : eyePath.passed, mean = (nearer + 4.0 * eyeFogUpTo(0.5 * (s0 + s1)) + farther) / 6.0;
-  eyePath.known = vec2(s1, farther);
-  float taken = max(nearer - farther, 0.0);
-  return vec2(taken, clamp(2.0 * mean - nearer - farther, -0.5 * taken, 0.5 * taken)) / max(s1 - s0, 1e-30);
-}
 
 // The same light as fog scatters it, alone.
 Airlight ofFog(Airlight light) {
@@ -99,14 +113,16 @@ void addSeen(Airlight light, float s0, float s1, Visibility mean, Visibility mom
     bool before = from < eyePath.begin, dims = !before && from < eyePath.end;
     float to = before ? min(eyePath.begin, s1) : s1;
     if (dims) {
-      float piece = from + max(steadyLength(light, s0, s1, from), least);
+      float steady = from + max(steadyLength(light, s0, s1, from), least);
 #if FOG && defined(FOG_STEPS)
-      piece = min(piece, from + (eyePath.end - eyePath.begin) / FOG_STEPS);
+      steady = min(steady, from + (eyePath.end - eyePath.begin) / FOG_STEPS);
 #endif
-      to = min(piece > from ? piece : s1, min(eyePath.end, s1));
+      to = min(steady > from ? steady : s1, min(eyePath.end, s1));
     }
-    vec2 passed = dims ? eyePassed(from, to) : vec2(before ? 1.0 : eyePath.passed, 0.0);
-    VisibilityLine line = partOf(VisibilityLine(mean, moment), s0, s1, from, to), own = dimmedBy(line, passed);
+    EyePiece piece;
+    piece.passed = vec2(before ? 1.0 : eyePath.passed, 0.0);
+    if (dims) piece = eyePiece(from, to);
+    VisibilityLine line = partOf(VisibilityLine(mean, moment), s0, s1, from, to), own = dimmedBy(line, piece.passed);
     own.mean = clamp(own.mean, Visibility(0.0), Visibility(1.0)); // lines are no more than near to what is between 0 and 1, as are their halves
     Visibility most = 0.5 * min(own.mean, 1.0 - own.mean);
     own.moment = clamp(own.moment, -most, most);
@@ -120,14 +136,14 @@ void addSeen(Airlight light, float s0, float s1, Visibility mean, Visibility mom
       more = dims && !scattersInFog;
       scattersInFog = more;
       if (more) {
-        VisibilityLine lit = dimmedBy(line, eyeTaken(from, to));
+        VisibilityLine lit = dimmedBy(line, piece.taken);
         weight = Weight(max(lit.mean, Visibility(0.0)));
         weightMoment = clamp(Weight(lit.moment), -0.5 * weight, 0.5 * weight);
         scattered = ofFog(light);
       }
     }
 #else
-    if (passed.x > 0.0) addWeighted(light, from, to, own.mean, own.moment, sum);
+    if (piece.passed.x > 0.0) addWeighted(light, from, to, own.mean, own.moment, sum);
 #endif
     from = to;
   }
