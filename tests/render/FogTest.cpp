@@ -1,0 +1,44 @@
+// Banks of fog whose curves and shadows change at every texel, along rays that nearly follow the light.
+#include "reference/Metrics.h"
+#include "render/SceneAnswers.h"
+#include "support/Catch.h"
+
+#include <gl/ReadBack.h>
+#include <render/RenderFrame.h>
+
+using namespace tyndall;
+
+namespace {
+
+constexpr int kWidth = 320, kHeight = 180;
+
+reference::Image inscatterBy(Technique technique) {
+  render::Options options = tests::sampleOptions("harbour", kWidth, kHeight, 4096);
+  options.settings.technique = technique;
+  render::FrameRenderer renderer(options);
+  renderer.draw(0);
+  const CreateResult created = Effect::create({renderer.context().loader(), PassTiming::Off});
+  REQUIRE(created.effect);
+  const host::GlTexture inscatter = host::makeTexture2D(GL_RGBA32F, kWidth, kHeight);
+  Frame frame = renderer.frame();
+  frame.colour = 0;
+  frame.output = {inscatter.name(), 0};
+  frame.settings = settingsOf(Profile::High);
+  frame.settings.technique = technique;
+  const Status status = created.effect->render(frame);
+  INFO(status.message);
+  REQUIRE(status);
+  return {kWidth, kHeight, host::readColour(inscatter.name(), kWidth, kHeight, 3)};
+}
+
+} // namespace
+
+// Mesa's llvmpipe ends the loops of a shader after 65,535 turns in all. Pixels below the roofs' shadows had more, and half of their light.
+TEST_CASE("exact loses no light where a ray of the harbour has most to look at", "[slow]") {
+  const reference::Image exact = inscatterBy(Technique::Exact);
+  const reference::ErrorMetrics error = reference::compare(inscatterBy(Technique::Tree), exact);
+  INFO(error.text());
+  CHECK(error.mean > 0);
+  CHECK(error.rRmse <= 0.003);
+  CHECK(error.max <= 0.4);
+}
