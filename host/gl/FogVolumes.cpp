@@ -2,6 +2,7 @@
 
 #include "gl/Gl.h"
 
+#include <algorithm>
 #include <cmath>
 #include <scene/Fog.h>
 #include <scene/Projection.h>
@@ -21,20 +22,34 @@ bool isFlat(glm::dmat3 axes) {
   return !(std::abs(glm::determinant(axes)) > kRounding);
 }
 
+bool isFilledAlike(const FogBank& a, const FogBank& b) {
+  return a.billows == b.billows && a.clear == b.clear && a.seed == b.seed;
+}
+
+/// No texture of an even bank.
+GlTexture upload(const FogGrid& grid) {
+  if (grid.size.x == 0) return {};
+  GlTexture density = makeTexture();
+  gl().BindTexture(GL_TEXTURE_3D, density.name());
+  gl().PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  gl().TexImage3D(GL_TEXTURE_3D, 0, GL_R8, grid.size.x, grid.size.y, grid.size.z, 0, GL_RED, GL_UNSIGNED_BYTE,
+                  grid.values.data());
+  gl().PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  gl().BindTexture(GL_TEXTURE_3D, 0);
+  return density;
+}
+
 } // namespace
 
-FogVolumes::FogVolumes(const Scene& scene) {
-  for (const FogBank& fog : scene.fog) {
-    const FogGrid grid = fogGrid(fog);
-    banks_.push_back({fog, {}});
-    if (grid.size.x == 0) continue;
-    banks_.back().density = makeTexture();
-    gl().BindTexture(GL_TEXTURE_3D, banks_.back().density.name());
-    gl().PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    gl().TexImage3D(GL_TEXTURE_3D, 0, GL_R8, grid.size.x, grid.size.y, grid.size.z, 0, GL_RED, GL_UNSIGNED_BYTE,
-                    grid.values.data());
-    gl().PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    gl().BindTexture(GL_TEXTURE_3D, 0);
+void FogVolumes::set(const std::vector<FogBank>& banks) {
+  const std::size_t known = std::min(banks_.size(), banks.size());
+  banks_.resize(banks.size());
+  for (std::size_t i = 0; i < banks.size(); ++i) {
+    if (i >= known || !isFilledAlike(banks_[i].fog, banks[i])) {
+      banks_[i].density = upload(fogGrid(banks[i]));
+      banks_[i].version = ++uploads_;
+    }
+    banks_[i].fog = banks[i];
   }
 }
 
@@ -49,7 +64,7 @@ std::vector<tyndall::AvsmVolume> FogVolumes::at(const std::vector<glm::dmat4>& w
     volume.extinction = bank.fog.extinction;
     volume.fade = bank.fog.fade;
     volume.density = bank.density.name();
-    volume.version = 1; // it never changes
+    volume.version = bank.version;
     volumes.push_back(volume);
   }
   return volumes;

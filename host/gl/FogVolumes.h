@@ -11,8 +11,8 @@ namespace host {
 
 class FogVolumes {
 public:
-  /// Uploads their densities.
-  explicit FogVolumes(const Scene& scene);
+  /// Uploads the densities of those that another one filled before.
+  void set(const std::vector<FogBank>& banks);
 
   /// In a pose; those whose nodes have lost an extent are left out. Textures live as long as this.
   std::vector<tyndall::AvsmVolume> at(const std::vector<glm::dmat4>& worldFromNode) const;
@@ -21,8 +21,10 @@ private:
   struct Bank {
     FogBank fog;
     GlTexture density; ///< none of an even bank
+    std::uint64_t version = 0;
   };
   std::vector<Bank> banks_;
+  std::uint64_t uploads_ = 0;
 };
 
 } // namespace host

@@ -116,6 +116,8 @@ struct SmokeEmitter {
   } ///< seconds; the smoke of a node that does not move repeats after it
 };
 
+constexpr std::size_t kMostFogBanks = 8; ///< that are captured at once
+
 /// A box or a sphere of fog, from extras.tyndall.fog of a node, whose transform places the cube, or the unit sphere,
 /// from -1 to 1. A node that has lost an extent has none.
 struct FogBank {
@@ -155,7 +157,7 @@ struct Scene {
   std::vector<Camera> cameras;
   std::vector<Light> lights;
   std::vector<SmokeEmitter> smoke;
-  std::vector<FogBank> fog; ///< at most 8; not in a scene that has smoke
+  std::vector<FogBank> fog; ///< at most kMostFogBanks; not in a scene that has smoke
   FogScattering fogScattering;
   std::vector<AnimationChannel> animation;  ///< all animations of the file, played at once
   std::optional<tyndall::Medium> medium;    ///< extras.tyndall.medium of the file's scene

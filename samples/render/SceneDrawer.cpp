@@ -119,7 +119,7 @@ void SceneDrawer::makeVolumeShadows(const settings::State& state, host::Notes& n
   if (version >= kNeeded) {
     volumeShadows_ =
         std::make_unique<VolumeShadows>(context_.loader(), timingFor(context_), state.avsmSize, state.avsmNodes);
-    if (!scene_.fog.empty() && !fog_) fog_.emplace(scene_);
+    if (!scene_.fog.empty() && !fog_) fog_.emplace();
     return;
   }
   notes.push_back(
@@ -139,6 +139,21 @@ tyndall::Medium SceneDrawer::mediumOf(const settings::State& state, host::Notes&
 
 tyndall::Ambient SceneDrawer::ambientOf(const settings::State& state) const {
   return state.ambient ? *state.ambient : scene_.ambient.value_or(tyndall::Ambient());
+}
+
+settings::StateFog SceneDrawer::fogOf(const settings::State& state) const {
+  settings::StateFog fog{scene_.fogScattering, scene_.fog};
+  if (!state.fog) return fog;
+  fog.scattering = state.fog->scattering;
+  for (std::size_t i = 0; i < std::min(fog.banks.size(), state.fog->banks.size()); ++i) {
+    const host::FogBank& own = state.fog->banks[i];
+    host::FogBank& bank = fog.banks[i];
+    bank.extinction = own.extinction;
+    bank.fade = own.fade;
+    bank.clear = own.clear;
+    bank.seed = own.seed;
+  }
+  return fog;
 }
 
 tyndall::Camera SceneDrawer::cameraOf(const host::Scene& scene, const settings::State& state,
@@ -215,8 +230,10 @@ std::vector<double> SceneDrawer::volumesKeyOf(const settings::State& state, cons
     for (const glm::dmat4& matrix : worldFromNode)
       append(key, matrix);
   }
-  for (const host::FogBank& bank : scene_.fog)
+  for (const host::FogBank& bank : fogOf(state).banks) {
+    append(key, std::initializer_list<double>{bank.extinction, bank.fade, bank.clear, double(bank.seed)});
     append(key, worldFromNode[static_cast<std::size_t>(bank.node)]);
+  }
   for (const MappedLight& light : mapped_) {
     key.push_back(static_cast<double>(light.views.size()));
     key.insert(key.end(), light.views.begin(), light.views.end());
@@ -287,7 +304,10 @@ void SceneDrawer::drawVolumes(const settings::State& state, const Moment& moment
     volumesKey_.clear();
     surfacesKey_.clear();
     setVolumes(state, moment, worldFromNode);
-    if (volumeShadows_ && fog_) volumeShadows_->setFog(fog_->at(worldFromNode));
+    if (volumeShadows_ && fog_) {
+      fog_->set(fogOf(state).banks);
+      volumeShadows_->setFog(fog_->at(worldFromNode));
+    }
     if (volumeShadows_) volumeShadows_->update(*renderer_, frame.lights);
     curves_.clear();
     for (const tyndall::Light& light : frame.lights)
@@ -378,7 +398,7 @@ void SceneDrawer::seeThroughVolumes(const settings::State& state, const Moment& 
   }
   frame.eyeCurves = eyeCurves_;
   if (scene_.fog.empty()) return;
-  const host::FogScattering& fog = scene_.fogScattering;
+  const host::FogScattering fog = fogOf(state).scattering;
   frame.eyeCurves.albedo = fog.albedo;
   frame.eyeCurves.phase = fog.phase;
   frame.eyeCurves.g = fog.g;

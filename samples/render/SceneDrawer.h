@@ -53,6 +53,9 @@ public:
   /// The state's ambient light, or the scene's; none if neither has any.
   tyndall::Ambient ambientOf(const settings::State& state) const;
 
+  /// The scene's banks of fog as the state fills them.
+  settings::StateFog fogOf(const settings::State& state) const;
+
   /// Of the scene, or of boxes().
   static tyndall::Camera cameraOf(const host::Scene& scene, const settings::State& state,
                                   const std::vector<glm::dmat4>& worldFromNode, host::Notes& notes);

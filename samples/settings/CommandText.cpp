@@ -57,6 +57,7 @@ std::string commandOf(const State& state) {
   });
   if (state.medium) command += " --medium " + quoted(textOf(*state.medium));
   if (state.ambient) command += " --ambient " + quoted(textOf(*state.ambient));
+  if (state.fog) command += " --fog " + quoted(textOf(*state.fog));
   if (state.lights) command += " --lights " + quoted(textOf(*state.lights));
   return command + " --out picture.png";
 }

@@ -160,6 +160,40 @@ const Table<Ambient>& ambientTable() {
   return table;
 }
 
+const Table<StateFog>& fogTable() {
+  using host::FogScattering;
+  static const Table<StateFog> table = [] {
+    Table<StateFog> made{"FogScattering", {}};
+    const std::vector<Setting<FogScattering>> rows = {
+        vector("albedo", &FogScattering::albedo, Type::Colour, from(0, 1), "share of the light that fog takes"),
+        choice("phase", &FogScattering::phase, "Phase", phases(), "where it goes"),
+        number("g", &FogScattering::g, between(-1, 1), "asymmetry of HenyeyGreenstein and CornetteShanks")
+            .withSlider(-0.99, 0.99),
+    };
+    for (const Setting<FogScattering>& row : rows) {
+      made.rows.push_back(part("scattering", &StateFog::scattering, row));
+      made.rows.back().field = row.field;
+    }
+    return made;
+  }();
+  return table;
+}
+
+const Table<host::FogBank>& fogBankTable() {
+  using host::FogBank;
+  constexpr int kMostSeed = std::numeric_limits<int>::max();
+  static const Table<FogBank> table{
+      "FogBank",
+      {
+          number("extinction", &FogBank::extinction, from(0, kMostFloat), "where it is densest, 1/world unit")
+              .withSlider(1e-3, 10, true),
+          number("fade", &FogBank::fade, from(0, 1), "share of the half extent over which it thins out to its border"),
+          number("clear", &FogBank::clear, from(0, 1), "share of it without fog"),
+          number("seed", &FogBank::seed, from(0, kMostSeed), "of its billows").withSlider(0, 100),
+      }};
+  return table;
+}
+
 const Table<StateLight>& lightTable() {
   static const Table<StateLight> table = [] {
     Table<StateLight> made{"Light",

@@ -69,6 +69,9 @@ std::string breachIn(const State& state) {
   if (breach.empty() && state.lookAt) breach = breachIn("camera", lookAtTable(), *state.lookAt);
   if (breach.empty() && state.medium) breach = breachIn(*state.medium);
   if (breach.empty() && state.ambient) breach = breachIn("ambient", ambientTable(), *state.ambient);
+  if (breach.empty() && state.fog) breach = breachIn("fog", fogTable(), *state.fog);
+  for (std::size_t i = 0; state.fog && i < state.fog->banks.size() && breach.empty(); ++i)
+    breach = breachIn(fmt::format("fog.banks[{}]", i), fogBankTable(), state.fog->banks[i]);
   for (std::size_t i = 0; state.lights && i < state.lights->size() && breach.empty(); ++i)
     breach = breachIn(fmt::format("lights[{}]", i), lightTable(), (*state.lights)[i]);
   if (breach.empty() && state.compared)

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <scene/ImageFile.h>
+#include <scene/Scene.h>
 #include <tyndall/tyndall.h>
 #include <vector>
 
@@ -38,6 +39,14 @@ struct StateLight {
   tyndall::Light light; ///< without shadow views and textures, which are drawn
 };
 
+/// Fog in place of the scene's.
+struct StateFog {
+  host::FogScattering scattering;
+  /// In the order of the scene's, which have their places, their shapes and the number of their billows; those that are
+  /// more than these are the scene's in all.
+  std::vector<host::FogBank> banks;
+};
+
 struct State {
   std::filesystem::path scene;
   std::optional<int> camera;                     ///< of the scene's; none: the first, or one that is made up
@@ -45,6 +54,7 @@ struct State {
   std::optional<std::vector<StateLight>> lights; ///< none: the scene's
   std::optional<tyndall::Medium> medium;         ///< none: the scene's
   std::optional<tyndall::Ambient> ambient;       ///< none: the scene's
+  std::optional<StateFog> fog;                   ///< none: the scene's
   double seconds = 0;                            ///< of the animation
   int width = 1280;
   int height = 720;

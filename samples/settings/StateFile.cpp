@@ -47,6 +47,14 @@ Json jsonOf(const tyndall::Ambient& ambient) {
 
 tyndall::Ambient ambientOf(const Json& json, const std::string& where) { return host::parseAmbient(json, where); }
 
+Json jsonOf(const StateFog& fog) {
+  Json json = jsonOf(fogTable(), fog);
+  json["banks"] = Json::array();
+  for (const host::FogBank& bank : fog.banks)
+    json["banks"].push_back(jsonOf(fogBankTable(), bank));
+  return json;
+}
+
 Json jsonOf(const std::vector<StateLight>& lights) {
   Json json = Json::array();
   for (const StateLight& light : lights)
@@ -76,6 +84,13 @@ tyndall::Medium mediumOf(const Json& json, const std::string& where) {
   readList(layerTable(), medium.layers, tyndall::kMaxHeightLayers, json, "layers", where);
   if (const std::string problem = contradictionIn(medium); !problem.empty()) refuse(where, problem);
   return medium;
+}
+
+StateFog fogOf(const Json& json, const std::string& where) {
+  StateFog fog;
+  readInto(fogTable(), fog, json, where, {"banks"});
+  readList(fogBankTable(), fog.banks, host::kMostFogBanks, json, "banks", where);
+  return fog;
 }
 
 std::vector<StateLight> lightsOf(const Json& json, const std::string& where) {
@@ -157,8 +172,8 @@ void requireVersion(const Json& json, const std::string& where) {
 }
 
 void requireKnown(const Json& json, const std::string& where) {
-  std::vector<std::string> known = {"version", "scene",  "camera",   "profile", "medium",
-                                    "ambient", "lights", "compared", "path"};
+  std::vector<std::string> known = {"version", "scene", "camera", "profile",  "medium",
+                                    "ambient", "fog",   "lights", "compared", "path"};
   State state;
   visitTables(state, [&](const char* name, const auto&, const auto&) { known.emplace_back(name); });
   for (const auto& member : json.items())
@@ -190,6 +205,7 @@ State parseState(const std::string& text, const std::string& where, const std::f
   if (json.contains("medium") && !json["medium"].is_null()) state.medium = mediumOf(json["medium"], prefix + "medium");
   if (json.contains("ambient") && !json["ambient"].is_null())
     state.ambient = ambientOf(json["ambient"], prefix + "ambient");
+  if (json.contains("fog") && !json["fog"].is_null()) state.fog = fogOf(json["fog"], prefix + "fog");
   if (json.contains("lights") && !json["lights"].is_null()) state.lights = lightsOf(json["lights"], prefix + "lights");
   if (json.contains("compared") && !json["compared"].is_null())
     state.compared = comparedOf(json["compared"], prefix + "compared");
@@ -210,6 +226,7 @@ std::string textOf(const State& state, const std::filesystem::path& folder) {
   visitTables(state, [&](const char* name, const auto& part, const auto& table) { json[name] = jsonOf(table, part); });
   json["medium"] = state.medium ? jsonOf(*state.medium) : Json(nullptr);
   json["ambient"] = state.ambient ? jsonOf(*state.ambient) : Json(nullptr);
+  json["fog"] = state.fog ? jsonOf(*state.fog) : Json(nullptr);
   json["lights"] = state.lights ? jsonOf(*state.lights) : Json(nullptr);
   json["compared"] = state.compared ? jsonOf(*state.compared) : Json(nullptr);
   json["path"] = jsonOf(state.path);
@@ -234,6 +251,8 @@ tyndall::Medium parseMedium(const std::string& text, const std::string& where) {
   return mediumOf(parseJson(text, where), where);
 }
 
+StateFog parseFog(const std::string& text, const std::string& where) { return fogOf(parseJson(text, where), where); }
+
 std::vector<StateLight> parseLights(const std::string& text, const std::string& where) {
   const std::vector<StateLight> lights = lightsOf(parseJson(text, where), where);
   State state;
@@ -246,6 +265,8 @@ std::vector<StateLight> parseLights(const std::string& text, const std::string& 
 std::string textOf(const tyndall::Ambient& ambient) { return shown(jsonOf(ambient)); }
 
 std::string textOf(const tyndall::Medium& medium) { return shown(jsonOf(medium)); }
+
+std::string textOf(const StateFog& fog) { return shown(jsonOf(fog)); }
 
 std::string textOf(const std::vector<StateLight>& lights) { return shown(jsonOf(lights)); }
 

@@ -17,6 +17,8 @@ const Table<tyndall::Medium>& mediumTable(); ///< all but constituents and layer
 const Table<tyndall::Constituent>& constituentTable();
 const Table<tyndall::HeightLayer>& layerTable();
 const Table<tyndall::Ambient>& ambientTable();
+const Table<StateFog>& fogTable(); ///< all but banks
+const Table<host::FogBank>& fogBankTable();
 const Table<StateLight>& lightTable(); ///< all of a tyndall::Light that is a person's to set, and what StateLight adds
 const Table<LookAt>& lookAtTable();
 const Table<State>& pictureTable();

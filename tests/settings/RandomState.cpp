@@ -75,6 +75,13 @@ void randomiseScene(settings::State& state, std::mt19937& random) {
     randomise(*state.ambient, settings::ambientTable(), random);
   }
   if (below(2, random) == 0) {
+    state.fog.emplace();
+    randomise(*state.fog, settings::fogTable(), random);
+    state.fog->banks.resize(static_cast<std::size_t>(below(host::kMostFogBanks + 1, random)));
+    for (host::FogBank& bank : state.fog->banks)
+      randomise(bank, settings::fogBankTable(), random);
+  }
+  if (below(2, random) == 0) {
     state.lights.emplace(static_cast<std::size_t>(below(tyndall::kMaxLights + 1, random)));
     for (settings::StateLight& light : *state.lights) {
       randomise(light, settings::lightTable(), random);
@@ -104,6 +111,13 @@ void compareScenes(std::vector<std::string>& found, const settings::State& a, co
     compare(found, fmt::format("lights[{}]", i), settings::lightTable(), (*a.lights)[i], (*b.lights)[i]);
   if (a.ambient.has_value() != b.ambient.has_value()) found.emplace_back("ambient");
   if (a.ambient && b.ambient) compare(found, "ambient", settings::ambientTable(), *a.ambient, *b.ambient);
+  if (a.fog.has_value() != b.fog.has_value()) found.emplace_back("fog");
+  if (a.fog && b.fog) {
+    compare(found, "fog", settings::fogTable(), *a.fog, *b.fog);
+    if (a.fog->banks.size() != b.fog->banks.size()) return found.emplace_back("fog.banks"), void();
+    for (std::size_t i = 0; i < a.fog->banks.size(); ++i)
+      compare(found, fmt::format("fog.banks[{}]", i), settings::fogBankTable(), a.fog->banks[i], b.fog->banks[i]);
+  }
   if (a.medium.has_value() != b.medium.has_value()) return found.emplace_back("medium"), void();
   if (!a.medium) return;
   compare(found, "medium", settings::mediumTable(), *a.medium, *b.medium);

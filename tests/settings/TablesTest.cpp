@@ -152,6 +152,8 @@ TEST_CASE("every setting has a name of its own, a line of help, and a default th
   checkTexts(settings::constituentTable(), options);
   checkTexts(settings::layerTable(), options);
   checkTexts(settings::ambientTable(), options);
+  checkTexts(settings::fogTable(), options);
+  checkTexts(settings::fogBankTable(), options);
   checkTexts(settings::lightTable(), options);
   checkTexts(settings::lookAtTable(), options);
   checkTexts(settings::pictureTable(), options);

@@ -258,6 +258,49 @@ TEST_CASE("smoke's density and the width of strands are a person's to set", "[pi
   }
 }
 
+TEST_CASE("what fog scatters, and what each bank of it holds, is a person's to set", "[pictures]") {
+  tests::ViewerRig rig;
+  rig.load("harbour");
+  const auto picture = [&] {
+    rig.settle();
+    CHECK(rig.error().empty());
+    return host::readColour(rig.viewer.first().composite(), 96, 54);
+  };
+  settings::State start = rig.viewer.state();
+  start.profile = tyndall::Profile::Performance;
+  start.settings = tyndall::settingsOf(start.profile);
+  start.settings.slices = start.settings.samples = 64;
+  start.shadowSize = 128;
+  start.avsmSize = 16;
+  rig.viewer.edit("less", start);
+  const std::vector<float> before = picture();
+  const settings::StateFog ofScene = rig.viewer.fogOf(start);
+  REQUIRE(ofScene.banks.size() > 1);
+  const auto edited = [&](const char* what, const auto& change) {
+    CAPTURE(what);
+    settings::State state = start;
+    state.fog = ofScene;
+    change(*state.fog);
+    rig.viewer.edit(what, state);
+    const std::vector<float> now = picture();
+    CHECK(now != before);
+    return now;
+  };
+  edited("fog.albedo", [](settings::StateFog& fog) { fog.scattering.albedo = {0.2F, 0.5F, 0.9F}; });
+  edited("fog.g", [](settings::StateFog& fog) { fog.scattering.g = 0; });
+  const auto thicker = edited("fog.banks[0].extinction", [](settings::StateFog& fog) { fog.banks[0].extinction *= 3; });
+  edited("fog.banks[0].fade", [](settings::StateFog& fog) { fog.banks[0].fade = 0; });
+  edited("fog.banks[1].seed", [](settings::StateFog& fog) { fog.banks[1].seed += 1; });
+  edited("fog.banks[1].clear", [](settings::StateFog& fog) { fog.banks[1].clear = 0; });
+  // Banks that are not listed are the scene's.
+  CHECK(edited("fog.banks", [](settings::StateFog& fog) {
+          fog.banks[0].extinction *= 3;
+          fog.banks.resize(1);
+        }) == thicker);
+  rig.viewer.edit("reset fog", start);
+  CHECK(picture() == before);
+}
+
 TEST_CASE("an animation plays and can be stopped") {
   tests::ViewerRig rig;
   rig.load("pendulum");

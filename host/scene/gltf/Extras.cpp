@@ -129,13 +129,12 @@ void convertSmoke(Document& document, const std::vector<int>& sceneNodes, Scene&
 }
 
 void convertFog(Document& document, const std::vector<int>& sceneNodes, Scene& scene) {
-  constexpr std::size_t kMostBanks = 8; // that are captured
   for (std::size_t node = 0; node < sceneNodes.size(); ++node) {
     if (sceneNodes[node] < 0) continue;
     std::optional<Fields> fields = extrasOf(document, document.json["nodes"][node], at("nodes", node), "fog");
     if (!fields) continue;
     if (!scene.smoke.empty()) document.refuse(fields->path(), "a scene has smoke or banks of fog, not both");
-    if (scene.fog.size() == kMostBanks) document.refuse(fields->path(), "a scene has at most 8 banks of fog");
+    if (scene.fog.size() == kMostFogBanks) document.refuse(fields->path(), "a scene has at most 8 banks of fog");
     scene.fog.push_back(fogOf(*fields));
     scene.fog.back().node = sceneNodes[node];
   }

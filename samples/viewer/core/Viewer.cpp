@@ -138,6 +138,7 @@ void Viewer::takeScene(SceneLoader::Result result) {
       state.lights.reset();
       state.medium.reset();
       state.ambient.reset();
+      state.fog.reset();
       state.path.clear();
       state.seconds = 0;
     }

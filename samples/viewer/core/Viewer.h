@@ -119,6 +119,10 @@ public:
   double sceneMilliseconds() const { return sceneMilliseconds_; } ///< of maps and surfaces, in the last frame
   double exposureStops() const;                                   ///< that is shown
 
+  /// The scene's banks of fog as a state fills them.
+  settings::StateFog fogOf(const settings::State& state) const {
+    return drawer_ ? drawer_->fogOf(state) : settings::StateFog();
+  }
   tyndall::Ambient sceneAmbient() const { return drawer_ ? drawer_->ambientOf(settings::State()) : tyndall::Ambient(); }
   const tyndall::Medium& sceneMedium() const { return sceneMedium_; } ///< in place of which a state may have another
 

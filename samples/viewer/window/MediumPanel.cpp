@@ -132,6 +132,37 @@ void drawAmbient(Viewer& viewer) {
   viewer.edit("ambient." + edited, state);
 }
 
+// Of a scene that has banks of it.
+void drawFog(Viewer& viewer) {
+  const settings::StateFog ofScene = viewer.fogOf(settings::State());
+  if (ofScene.banks.empty()) return;
+  settings::State state = viewer.state();
+  if (heading("Fog", !state.fog)) {
+    state.fog.reset();
+    return viewer.edit("reset fog", state);
+  }
+  settings::StateFog fog = viewer.fogOf(state);
+  const bool hasG = fog.scattering.phase == tyndall::Phase::HenyeyGreenstein ||
+                    fog.scattering.phase == tyndall::Phase::CornetteShanks;
+  std::string edited, field;
+  if (editRows(settings::fogTable(), fog, ofScene, field,
+               hasG ? std::vector<std::string>() : std::vector<std::string>{"g"}))
+    edited = field;
+  for (std::size_t i = 0; i < fog.banks.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    ImGui::Separator();
+    ImGui::Text("banks[%d]", static_cast<int>(i));
+    const bool isEven = ofScene.banks[i].billows == glm::ivec3(0);
+    if (editRows(settings::fogBankTable(), fog.banks[i], ofScene.banks[i], field,
+                 isEven ? std::vector<std::string>{"clear", "seed"} : std::vector<std::string>()))
+      edited = "banks[" + std::to_string(i) + "]." + field;
+    ImGui::PopID();
+  }
+  if (edited.empty()) return;
+  state.fog = fog;
+  viewer.edit("fog." + edited, state);
+}
+
 void drawMedium(Viewer& viewer) {
   settings::State state = viewer.state();
   if (heading("Medium", !state.medium)) {
@@ -170,6 +201,7 @@ void drawMedium(Viewer& viewer) {
 void drawMediumPanel(Session& session) {
   drawMedium(session.viewer);
   drawAmbient(session.viewer);
+  drawFog(session.viewer);
 }
 
 } // namespace viewer
