@@ -33,8 +33,9 @@ public:
   }
 
   /// The smoke and strands that there are from now on; none at first. The scene's own are smokeAt() and strandsAt().
-  void setVolumes(std::vector<SmokeParticle> smoke, Strands strands) {
-    volumes_.set(std::move(smoke), std::move(strands));
+  /// Smoke that is not drawn is captured, for something else to draw it.
+  void setVolumes(std::vector<SmokeParticle> smoke, Strands strands, bool drawsSmoke = true) {
+    volumes_.set(std::move(smoke), std::move(strands), drawsSmoke);
   }
 
   /// Captures them through light.shadow.views, into maps of `size` texels a side: between begin() and resolve() of an

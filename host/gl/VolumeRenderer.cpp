@@ -5,7 +5,8 @@
 
 namespace host {
 
-void VolumeRenderer::set(std::vector<SmokeParticle> smoke, Strands strands) {
+void VolumeRenderer::set(std::vector<SmokeParticle> smoke, Strands strands, bool drawsSmoke) {
+  drawsSmoke_ = drawsSmoke;
   if (smoke_) {
     smoke_->set(std::move(smoke));
   } else if (!smoke.empty()) {
@@ -69,7 +70,7 @@ void VolumeRenderer::drawStrands(const CameraView& camera, const Illumination& i
 
 void VolumeRenderer::drawSmoke(const CameraView& camera, const Illumination& illumination,
                                const RenderTargets& targets) {
-  if (smoke_) {
+  if (smoke_ && drawsSmoke_) {
     smoke_->draw(camera, illumination, targets);
   }
 }

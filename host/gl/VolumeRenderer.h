@@ -9,7 +9,7 @@ namespace host {
 class VolumeRenderer {
 public:
   /// See SceneRenderer.
-  void set(std::vector<SmokeParticle> smoke, Strands strands);
+  void set(std::vector<SmokeParticle> smoke, Strands strands, bool drawsSmoke);
   void capture(const tyndall::Light& light, int size);
   void captureSmoke(const tyndall::Light& light, int size);
 
@@ -22,6 +22,7 @@ private:
 
   std::optional<SmokeRenderer> smoke_; ///< made, and its shaders compiled, when there first is any
   std::optional<StrandRenderer> strands_;
+  bool drawsSmoke_ = true;
   GlFramebuffer withoutAttachments_;
 };
 

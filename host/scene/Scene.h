@@ -130,7 +130,7 @@ struct FogBank {
   int seed = 0;            ///< of the billows, 0 to 2^31 - 1
 };
 
-/// What all banks scatter, from extras.tyndall.fog of the scene.
+/// What all banks scatter, and smoke where a scene says it, from extras.tyndall.fog of the scene.
 struct FogScattering {
   tyndall::Rgb albedo = {0.95F, 0.95F, 0.95F}; ///< share of the light that fog takes, 0 to 1
   tyndall::Phase phase = tyndall::Phase::HenyeyGreenstein;
@@ -158,7 +158,8 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<SmokeEmitter> smoke;
   std::vector<FogBank> fog; ///< at most kMostFogBanks; not in a scene that has smoke
-  FogScattering fogScattering;
+  /// None: banks scatter as FogScattering begins, and smoke is drawn with its own light.
+  std::optional<FogScattering> fogScattering;
   std::vector<AnimationChannel> animation;  ///< all animations of the file, played at once
   std::optional<tyndall::Medium> medium;    ///< extras.tyndall.medium of the file's scene
   std::optional<tyndall::Ambient> ambient;  ///< extras.tyndall.ambient: light that the medium scatters

@@ -142,7 +142,7 @@ tyndall::Ambient SceneDrawer::ambientOf(const settings::State& state) const {
 }
 
 settings::StateFog SceneDrawer::fogOf(const settings::State& state) const {
-  settings::StateFog fog{scene_.fogScattering, scene_.fog};
+  settings::StateFog fog{scene_.fogScattering.value_or(host::FogScattering()), scene_.fog};
   if (!state.fog) return fog;
   fog.scattering = state.fog->scattering;
   for (std::size_t i = 0; i < std::min(fog.banks.size(), state.fog->banks.size()); ++i) {
@@ -154,6 +154,11 @@ settings::StateFog SceneDrawer::fogOf(const settings::State& state) const {
     bank.seed = own.seed;
   }
   return fog;
+}
+
+bool SceneDrawer::lightsFog(const settings::State& state) const {
+  const bool isSmokeLit = !scene_.smoke.empty() && scene_.fogScattering && state.litSmoke;
+  return volumeShadows_ && state.eyeCurves && (!scene_.fog.empty() || isSmokeLit);
 }
 
 tyndall::Camera SceneDrawer::cameraOf(const host::Scene& scene, const settings::State& state,
@@ -226,7 +231,7 @@ std::vector<double> SceneDrawer::volumesKeyOf(const settings::State& state, cons
   std::vector<double> key = {1};
   if (!scene_.smoke.empty() || host::hasStrands(scene_)) {
     append(key, std::initializer_list<double>{moment.seconds, state.smokeDensity, state.strandWidth,
-                                              state.strandOpacity, double(moment.isCoarse)});
+                                              state.strandOpacity, double(moment.isCoarse), double(lightsFog(state))});
     for (const glm::dmat4& matrix : worldFromNode)
       append(key, matrix);
   }
@@ -265,7 +270,7 @@ void SceneDrawer::setVolumes(const settings::State& state, const Moment& moment,
     point.strand.width *= state.strandWidth;
     point.strand.opacity *= state.strandOpacity;
   }
-  renderer_->setVolumes(std::move(smoke), std::move(strands));
+  renderer_->setVolumes(std::move(smoke), std::move(strands), !lightsFog(state));
 }
 
 void SceneDrawer::drawMaps(const settings::State& state, const Moment& moment,
@@ -393,11 +398,12 @@ void SceneDrawer::seeThroughVolumes(const settings::State& state, const Moment& 
   if (key != eyeKey_) {
     eyeKey_.clear();
     near = std::clamp(near, kNearest * far, (1 - kThinnest) * far);
-    eyeCurves_ = volumeShadows_->before(*renderer_, frame.camera, {0, 0, image.width(), image.height()}, near, far);
+    eyeCurves_ = volumeShadows_->before(*renderer_, frame.camera, {0, 0, image.width(), image.height()}, near, far,
+                                        lightsFog(state));
     eyeKey_ = std::move(key);
   }
   frame.eyeCurves = eyeCurves_;
-  if (scene_.fog.empty()) return;
+  if (!lightsFog(state)) return;
   const host::FogScattering fog = fogOf(state).scattering;
   frame.eyeCurves.albedo = fog.albedo;
   frame.eyeCurves.phase = fog.phase;

@@ -55,6 +55,8 @@ public:
 
   /// The scene's banks of fog as the state fills them.
   settings::StateFog fogOf(const settings::State& state) const;
+  /// Whether the effect lights fog, or smoke, in such a state.
+  bool lightsFog(const settings::State& state) const;
 
   /// Of the scene, or of boxes().
   static tyndall::Camera cameraOf(const host::Scene& scene, const settings::State& state,

@@ -26,12 +26,13 @@ void VolumeShadows::update(host::SceneRenderer& renderer, std::vector<tyndall::L
 }
 
 tyndall::EyeCurves VolumeShadows::before(host::SceneRenderer& renderer, const tyndall::Camera& camera,
-                                         const tyndall::Rectangle& image, double nearDistance, double farDistance) {
+                                         const tyndall::Rectangle& image, double nearDistance, double farDistance,
+                                         bool isLit) {
   tyndall::Light eye;
   require(tyndall::eyeLight(camera, image, nearDistance, farDistance, eye));
   // What curves of few nodes are off by shows as blotches on what stands within lit fog.
-  constexpr int kFogNodes = 16;
-  create(eye_, 1, fog_.empty() ? nodes_ : kFogNodes);
+  constexpr int kLitNodes = 16;
+  create(eye_, 1, isLit ? kLitNodes : nodes_);
   capture(eye_, eye, [&] { renderer.captureSmoke(eye, size_); });
   return {eye_.avsm->curves(), nearDistance, farDistance};
 }

@@ -29,10 +29,10 @@ public:
   /// Throws host::Error.
   void update(host::SceneRenderer& renderer, std::vector<tyndall::Light>& lights);
 
-  /// Captures the renderer's smoke, and the fog, before a camera, between two planes (tyndall::eyeLight()). Throws
-  /// host::Error.
+  /// Captures the renderer's smoke, and the fog, before a camera, between two planes (tyndall::eyeLight()), finely if
+  /// it is lit. Throws host::Error.
   tyndall::EyeCurves before(host::SceneRenderer& renderer, const tyndall::Camera& camera,
-                            const tyndall::Rectangle& image, double nearDistance, double farDistance);
+                            const tyndall::Rectangle& image, double nearDistance, double farDistance, bool isLit);
 
   /// From now on there is none.
   void forgetEye() { eye_ = {}; }

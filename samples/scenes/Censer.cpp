@@ -38,7 +38,7 @@ Smoke incense() {
   smoke.particles = 520;
   smoke.radius = 0.17;
   smoke.growth = 5;
-  smoke.density = 0.9;
+  smoke.density = 1.35;
   smoke.spread = 0.12;
   smoke.height = 7.0;
   smoke.rise = 0.85;
@@ -57,7 +57,7 @@ Smoke haze() {
   smoke.particles = 260;
   smoke.radius = 0.5;
   smoke.growth = 3;
-  smoke.density = 0.22;
+  smoke.density = 0.33;
   smoke.spread = 0.45;
   smoke.height = 2.2;
   smoke.rise = 0.18;
@@ -78,6 +78,10 @@ Scene makeCenser() {
   MeshBuilder mesh(scene);
   censer(mesh, gold, coals);
   scene.smoke = {incense(), haze()};
+  scene.isSmokeLit = true;
+  scene.fogAlbedo = glm::dvec3(0.92, 0.92, 0.93);
+  scene.fogG = 0.4;
+  scene.ambient = glm::dvec3(0.02, 0.0195, 0.019);
   return scene;
 }
 

@@ -289,7 +289,7 @@ json extrasOf(const Scene& scene) {
   if (scene.farDistance > 0) medium["farDistance"] = scene.farDistance;
   json extras = {{"medium", medium}, {"sky", listOf(scene.sky)}};
   if (scene.ambient != glm::dvec3(0)) extras["ambient"]["radiance"] = listOf(scene.ambient);
-  if (!scene.fog.empty())
+  if (!scene.fog.empty() || scene.isSmokeLit)
     extras["fog"] = {{"albedo", listOf(scene.fogAlbedo)}, {"phase", "henyey-greenstein"}, {"g", scene.fogG}};
   return {{"tyndall", extras}};
 }

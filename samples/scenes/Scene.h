@@ -121,6 +121,7 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Smoke> smoke;
   std::vector<Fog> fog;
+  bool isSmokeLit = false;    ///< as fog is, by the effect
   glm::dvec3 fogAlbedo{0.95}; ///< what fog scatters of the light that it takes, by Henyey and Greenstein's phase
   double fogG = 0.6;          ///< function with this asymmetry
   std::vector<Strands> strands;

@@ -127,6 +127,10 @@ const Table<State>& volumesTable() {
           switchOf("eyeCurves", &State::eyeCurves, "and smoke dims the shafts behind it, and fog is drawn")
               .withOption("--no-eye-curves", OptionForm::FlagOff,
                           "shafts shine through smoke before them, and fog is not drawn"),
+          switchOf("litSmoke", &State::litSmoke,
+                   "the effect lights smoke, as it does fog, where the scene says what that scatters")
+              .withOption("--no-lit-smoke", OptionForm::FlagOff,
+                          "smoke is drawn before the effect, with a light of its own"),
           number("avsmSize", &State::avsmSize, from(1, 4096), "texels per side of the maps of smoke, fog and strands")
               .withOption("--avsm-size")
               .withSlider(32, 1024, true),

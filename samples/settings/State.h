@@ -74,6 +74,7 @@ struct State {
   host::MapForm mapForm;      ///< in which the effect is handed shadow and glass maps
   bool avsm = true;           ///< whether smoke and strands cast shadows
   bool eyeCurves = true;      ///< and smoke dims the shafts behind it
+  bool litSmoke = true;       ///< whether the effect lights smoke of which the scene says what it scatters
   int avsmSize = 256;         ///< texels per side
   int avsmNodes = 8;
   double smokeDensity = 1;    ///< times what the scene says

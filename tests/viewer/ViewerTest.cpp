@@ -301,6 +301,39 @@ TEST_CASE("what fog scatters, and what each bank of it holds, is a person's to s
   CHECK(picture() == before);
 }
 
+TEST_CASE("the effect lights smoke of a scene that says what it scatters, unless a person has it drawn", "[pictures]") {
+  tests::ViewerRig rig;
+  rig.load("smoke");
+  CHECK_FALSE(rig.viewer.lightsFog());
+  rig.load("censer");
+  CHECK(rig.viewer.lightsFog());
+  const auto picture = [&] {
+    rig.settle();
+    CHECK(rig.error().empty());
+    return host::readColour(rig.viewer.first().composite(), 96, 54);
+  };
+  const std::vector<float> lit = picture();
+  settings::State state = rig.viewer.state();
+  state.fog = rig.viewer.fogOf(state);
+  state.fog->scattering.albedo = {0, 0, 0};
+  rig.viewer.edit("fog.albedo", state);
+  const std::vector<float> black = picture();
+  for (std::size_t i = 0; i < lit.size(); ++i)
+    if (!(black[i] <= lit[i] + 1e-3F * std::abs(lit[i]))) FAIL_CHECK(i << ": " << black[i] << " of " << lit[i]);
+  CHECK(black != lit);
+  state = rig.viewer.state();
+  state.litSmoke = false;
+  rig.viewer.edit("volumes.litSmoke", state);
+  CHECK_FALSE(rig.viewer.lightsFog());
+  const std::vector<float> drawn = picture();
+  CHECK(drawn != lit);
+  CHECK(drawn != black);
+  state.litSmoke = true;
+  state.fog.reset();
+  rig.viewer.edit("reset", state);
+  CHECK(picture() == lit);
+}
+
 TEST_CASE("an animation plays and can be stopped") {
   tests::ViewerRig rig;
   rig.load("pendulum");

@@ -119,6 +119,7 @@ public:
   double sceneMilliseconds() const { return sceneMilliseconds_; } ///< of maps and surfaces, in the last frame
   double exposureStops() const;                                   ///< that is shown
 
+  bool lightsFog() const { return drawer_ && drawer_->lightsFog(state()); }
   /// The scene's banks of fog as a state fills them.
   settings::StateFog fogOf(const settings::State& state) const {
     return drawer_ ? drawer_->fogOf(state) : settings::StateFog();

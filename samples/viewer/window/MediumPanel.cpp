@@ -132,10 +132,10 @@ void drawAmbient(Viewer& viewer) {
   viewer.edit("ambient." + edited, state);
 }
 
-// Of a scene that has banks of it.
+// Of a scene in which the effect lights banks of it, or smoke.
 void drawFog(Viewer& viewer) {
+  if (!viewer.lightsFog()) return;
   const settings::StateFog ofScene = viewer.fogOf(settings::State());
-  if (ofScene.banks.empty()) return;
   settings::State state = viewer.state();
   if (heading("Fog", !state.fog)) {
     state.fog.reset();
