@@ -38,9 +38,10 @@ tyndall::EyeCurves VolumeShadows::before(host::SceneRenderer& renderer, const ty
 }
 
 void VolumeShadows::create(Map& map, int layers, int nodes) const {
-  if (layers == map.layers) return;
+  if (layers == map.layers && nodes == map.nodes) return;
   map = {};
   map.layers = layers;
+  map.nodes = nodes;
   if (layers == 0) return;
   tyndall::AvsmConfig config;
   config.loader = loader_;

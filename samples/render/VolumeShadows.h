@@ -43,7 +43,7 @@ public:
 private:
   struct Map {
     std::unique_ptr<tyndall::Avsm> avsm; ///< none for a light without shadow views
-    int layers = 0;
+    int layers = 0, nodes = 0;
     double captureMilliseconds = 0;
   };
 

@@ -33,7 +33,8 @@ reference::Image inscatterBy(Technique technique) {
 
 } // namespace
 
-// Mesa's llvmpipe ends the loops of a shader after 65,535 turns in all. Pixels below the roofs' shadows had more, and half of their light.
+// Mesa's llvmpipe ends the loops of a shader after 65,535 turns in all. Pixels below the roofs' shadows had more, and
+// half of their light.
 TEST_CASE("exact loses no light where a ray of the harbour has most to look at", "[slow]") {
   const reference::Image exact = inscatterBy(Technique::Exact);
   const reference::ErrorMetrics error = reference::compare(inscatterBy(Technique::Tree), exact);
