@@ -37,15 +37,15 @@ struct CurvePart {
   vec3 upTo;
 };
 
-// From one depth to another, low < high, and up to depths that are no less than low and no more than high. All nodes of the texels before `first` are nearer
-// than low; as it is left, nearer than high: a walk along a curve reads each of its texels about once.
+// From one depth to another, low < high but where only the latter is asked for, and up to depths that are no less than low and no more than high. All nodes of
+// the texels before `first` are nearer than low; as it is left, nearer than high: only the texels are read in which the part lies, and the one before.
 CurvePart curvePart(usampler2DArray map, int texels, int isPacked, ivec3 texel, float low, float high, vec3 depths, inout int first) {
   vec2 sum = vec2(0.0), before = vec2(-1e9, 1.0);
   if (first > 0) {
     CurveNodes last = curveNodes(map, texels, isPacked, texel, first - 1);
     before = vec2(last.depths.w, last.passed.w);
   }
-  vec3 fall = vec3(log2(before.y)), rest = vec3(1.0); // of what passes up to the depths: where something comes through, and where nothing does
+  vec3 fall = vec3(log2(max(before.y, 1e-30))), rest = vec3(1.0); // of what passes up to the depths: where something comes through, and where nothing does
   for (int i = first; i < texels && before.x < high; ++i) {
     CurveNodes nodes = curveNodes(map, texels, isPacked, texel, i);
     first = i;
@@ -53,7 +53,7 @@ CurvePart curvePart(usampler2DArray map, int texels, int isPacked, ivec3 texel, 
       vec2 node = vec2(nodes.depths[k], nodes.passed[k]);
       addLine(before, node, low, high, sum);
       vec3 share = clamp((depths - before.x) * (1.0 / max(node.x - before.x, 1e-30)), 0.0, 1.0);
-      if (node.y > kLeastPassed) fall += share * log2(node.y / before.y);
+      if (node.y > kLeastPassed) fall += share * log2(node.y / max(before.y, kLeastPassed));
       else rest -= share;
       before = node;
     }

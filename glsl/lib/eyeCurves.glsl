@@ -44,7 +44,7 @@ void startEyePath(vec2 position, Ray ray) {
 }
 
 // From one distance to another: mean and first moment of the transmittance and, FOG 1, the same of what is taken there, a unit of length: the latter from
-// the mean transmittance by Simpson's rule. Quick where it begins no nearer than the one before.
+// the mean transmittance by Simpson's rule. Quick where it begins no nearer than the one before ends.
 struct EyePiece {
   vec2 passed;
 #if FOG

@@ -11,7 +11,7 @@ namespace host {
 
 class FogVolumes {
 public:
-  /// Uploads the densities of those that another one filled before.
+  /// Uploads their densities, but of those that are filled as they were.
   void set(const std::vector<FogBank>& banks);
 
   /// In a pose; those whose nodes have lost an extent are left out. Textures live as long as this.

@@ -37,7 +37,8 @@ Shares
   --missing prints "3-7,12", say, and ends with 1, or prints nothing and ends with 0.
 States
   --state takes what the viewer saves: scene, camera, lights, medium, picture and all settings, as JSON; what is left out
-  is at its default. --lights, --medium, --ambient and --fog take parts of it as they are there: '{"absorption": [0.01, 0.01, 0.01]}'.
+  is at its default. --lights, --medium, --ambient and --fog take parts of it as they are there:
+  '{"absorption": [0.01, 0.01, 0.01]}'.
 Program cache
   Linked programs are kept in $XDG_CACHE_HOME/tyndall/programs, ~/.cache/tyndall/programs by default, at most 64 MiB:
   what was not used for the longest time goes. Where that folder cannot be written, none are kept.
@@ -183,7 +184,7 @@ void addLights(CLI::App& app, Options& options, Given& given) {
            const auto fog = parsedPart("--fog", text, settings::parseFog);
            given.overrides.emplace_back([fog](settings::State& state) { state.fog = fog; });
          },
-         "what fills the scene's banks of fog and what they scatter, instead of the scene's: as in state files")
+         "what fog, or lit smoke, scatters and what fills the scene's banks, instead of the scene's: as in state files")
       ->type_name("JSON");
 }
 

@@ -372,7 +372,8 @@ std::array<double, 2> reachOf(const host::Bounds& box, const tyndall::Camera& ca
 
 } // namespace
 
-// What smoke and fog leave of the light behind them, between the planes that hold all of them; and fog scatters.
+// What smoke and fog leave of the light behind them, between the planes that hold all of them; and what is lit of them
+// scatters.
 void SceneDrawer::seeThroughVolumes(const settings::State& state, const Moment& moment,
                                     const std::vector<glm::dmat4>& worldFromNode, const host::RenderTargets& image,
                                     tyndall::Frame& frame) {

@@ -53,7 +53,7 @@ public:
   /// The state's ambient light, or the scene's; none if neither has any.
   tyndall::Ambient ambientOf(const settings::State& state) const;
 
-  /// The scene's banks of fog as the state fills them.
+  /// The scene's banks of fog as the state fills them, and what they scatter.
   settings::StateFog fogOf(const settings::State& state) const;
   /// Whether the effect lights fog, or smoke, in such a state.
   bool lightsFog(const settings::State& state) const;

@@ -40,8 +40,6 @@ tyndall::EyeCurves VolumeShadows::before(host::SceneRenderer& renderer, const ty
 void VolumeShadows::create(Map& map, int layers, int nodes) const {
   if (layers == map.layers && nodes == map.nodes) return;
   map = {};
-  map.layers = layers;
-  map.nodes = nodes;
   if (layers == 0) return;
   tyndall::AvsmConfig config;
   config.loader = loader_;
@@ -51,6 +49,8 @@ void VolumeShadows::create(Map& map, int layers, int nodes) const {
   config.nodes = nodes;
   tyndall::AvsmResult created = tyndall::Avsm::create(config);
   require(created.status);
+  map.layers = layers; // of a map that there is: one that could not be made is tried again
+  map.nodes = nodes;
   map.avsm = std::move(created.avsm);
 }
 

@@ -103,6 +103,10 @@ std::string frameCode(const tyndall::Frame& frame) {
     code += fmt::format("  frame.lights.push_back(chosenLight{}(textures));\n", i);
   addMedium(code, frame.medium);
   addFields(code, "frame.ambient", ambientTable(), frame.ambient);
+  const tyndall::EyeCurves &curves = frame.eyeCurves, clear; // what the curves hold is the engine's
+  const auto scatteredBy = [](const tyndall::EyeCurves& eye) { return StateFog{{eye.albedo, eye.phase, eye.g}, {}}; };
+  addFields(code, "frame.eyeCurves", fogTable(), scatteredBy(curves), scatteredBy(clear));
+  if (curves.dimsBackground) code += "  frame.eyeCurves.dimsBackground = true;\n";
   addFields(code, "frame.settings", settingsTable(), frame.settings);
   addFields(code, "frame.reuse", reuseTable(), frame.reuse);
   return code + "  return frame;\n}\n";

@@ -126,7 +126,7 @@ const Table<State>& volumesTable() {
                           "smoke, fog and strands cast no shadows, and fog is not drawn"),
           switchOf("eyeCurves", &State::eyeCurves, "and smoke dims the shafts behind it, and fog is drawn")
               .withOption("--no-eye-curves", OptionForm::FlagOff,
-                          "shafts shine through smoke before them, and fog is not drawn"),
+                          "shafts shine through smoke before them, which they do not light, and fog is not drawn"),
           switchOf("litSmoke", &State::litSmoke,
                    "the effect lights smoke, as it does fog, where the scene says what that scatters")
               .withOption("--no-lit-smoke", OptionForm::FlagOff,

@@ -67,7 +67,7 @@ std::string ruleOf(const Row& row) {
   std::string text = row.count() == 3          ? "three finite numbers"
                      : row.type == Type::Whole ? "a whole number"
                                                : "a number";
-  const bool isRadiance = row.count() == 3 && row.rule.low == 0 && row.rule.high > 1; // its end is that of floats
+  const bool isRadiance = row.count() == 3 && row.rule.low == 0 && row.rule.high > 1e30; // its end is that of floats
   text += isRadiance ? ", none negative" : rangeOf(row.rule);
   if (row.type == Type::Direction) text += ", not all 0";
   if (row.rule.multipleOf != 1) text += fmt::format(", a multiple of {}", row.rule.multipleOf);

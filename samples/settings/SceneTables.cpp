@@ -1,4 +1,4 @@
-// What is in the air and what lights it: Medium, Constituent, Light.
+// What is in the air and what lights it: Medium, Constituent, Light, banks of fog.
 #include "Tables.h"
 
 namespace settings {
@@ -182,10 +182,11 @@ const Table<StateFog>& fogTable() {
 const Table<host::FogBank>& fogBankTable() {
   using host::FogBank;
   constexpr int kMostSeed = std::numeric_limits<int>::max();
+  constexpr double kMostExtinction = 1e15; // as in scenes
   static const Table<FogBank> table{
       "FogBank",
       {
-          number("extinction", &FogBank::extinction, from(0, kMostFloat), "where it is densest, 1/world unit")
+          number("extinction", &FogBank::extinction, from(0, kMostExtinction), "where it is densest, 1/world unit")
               .withSlider(1e-3, 10, true),
           number("fade", &FogBank::fade, from(0, 1), "share of the half extent over which it thins out to its border"),
           number("clear", &FogBank::clear, from(0, 1), "share of it without fog"),
@@ -223,7 +224,7 @@ const std::vector<Left>& leftToEngines() {
       {"Frame.lights", "a list of lightTable()"},
       {"Frame.medium", "mediumTable()"},
       {"Frame.ambient", "ambientTable()"},
-      {"Frame.eyeCurves", texture},
+      {"Frame.eyeCurves", "a texture and how it is laid out; fogTable()"},
       {"Frame.settings", "settingsTable()"},
       {"Frame.output", texture},
       {"Frame.lookup", texture},

@@ -4,8 +4,9 @@
 //  ...]}, "lights": [{...}, ...]}
 // A camera of one's own is {"eye": [x, y, z], "target": [x, y, z], "fovDegrees": 50}. Fields are those of the tables
 // (Tables.h), by their names there; what is left out is at its default, settings at those of the profile, medium,
-// ambient light, fog and lights are the scene's. Numbers without bound are "infinity", what is left to the tool is
-// null. Files are relative to the state's folder.
+// ambient light, fog and lights are the scene's; what a fog leaves out is as scenes' fog begins, but banks, which are
+// the scene's. Numbers without bound are "infinity", what is left to the tool is null. Files are relative to the
+// state's folder.
 #pragma once
 
 #include "State.h"

@@ -117,6 +117,8 @@ TEST_CASE("a state that breaks a rule is refused with field, value and rule") {
        "a.json: fog.albedo: [0.5,1.5,0.5] must be three finite numbers from 0 to 1"},
       {R"({"version": 1, "fog": {"banks": [{}, {"fade": 2}]}})",
        "a.json: fog.banks[1].fade: 2 must be a number from 0"},
+      {R"({"version": 1, "fog": {"banks": [{"extinction": 1e16}]}})",
+       "a.json: fog.banks[0].extinction: 1e+16 must be a number from 0 to 1000000000000000"},
       {R"({"version": 1, "fog": {"banks": [{"billows": [1, 1, 1]}]}})",
        "a.json: fog.banks[0]: has no field \"billows\""},
       {R"({"version": 1, "fog": {"banks": [{}, {}, {}, {}, {}, {}, {}, {}, {}]}})",

@@ -307,13 +307,21 @@ TEST_CASE("the effect lights smoke of a scene that says what it scatters, unless
   CHECK_FALSE(rig.viewer.lightsFog());
   rig.load("censer");
   CHECK(rig.viewer.lightsFog());
+  settings::State first = rig.viewer.state();
+  first.litSmoke = false;
+  rig.viewer.edit("volumes.litSmoke", first); // with curves of fewer nodes
   const auto picture = [&] {
     rig.settle();
     CHECK(rig.error().empty());
     return host::readColour(rig.viewer.first().composite(), 96, 54);
   };
-  const std::vector<float> lit = picture();
+  const std::vector<float> drawn = picture();
+  CHECK_FALSE(rig.viewer.lightsFog());
   settings::State state = rig.viewer.state();
+  state.litSmoke = true;
+  rig.viewer.edit("volumes.litSmoke", state);
+  const std::vector<float> lit = picture();
+  CHECK(lit != drawn);
   state.fog = rig.viewer.fogOf(state);
   state.fog->scattering.albedo = {0, 0, 0};
   rig.viewer.edit("fog.albedo", state);
@@ -324,10 +332,11 @@ TEST_CASE("the effect lights smoke of a scene that says what it scatters, unless
   state = rig.viewer.state();
   state.litSmoke = false;
   rig.viewer.edit("volumes.litSmoke", state);
-  CHECK_FALSE(rig.viewer.lightsFog());
-  const std::vector<float> drawn = picture();
-  CHECK(drawn != lit);
-  CHECK(drawn != black);
+  CHECK(picture() == drawn);
+  tests::ViewerRig fresh;
+  fresh.load("censer");
+  fresh.settle();
+  CHECK(host::readColour(fresh.viewer.first().composite(), 96, 54) == lit);
   state.litSmoke = true;
   state.fog.reset();
   rig.viewer.edit("reset", state);

@@ -134,7 +134,8 @@ void convertFog(Document& document, const std::vector<int>& sceneNodes, Scene& s
     std::optional<Fields> fields = extrasOf(document, document.json["nodes"][node], at("nodes", node), "fog");
     if (!fields) continue;
     if (!scene.smoke.empty()) document.refuse(fields->path(), "a scene has smoke or banks of fog, not both");
-    if (scene.fog.size() == kMostFogBanks) document.refuse(fields->path(), "a scene has at most 8 banks of fog");
+    if (scene.fog.size() == kMostFogBanks)
+      document.refuse(fields->path(), "a scene has at most " + std::to_string(kMostFogBanks) + " banks of fog");
     scene.fog.push_back(fogOf(*fields));
     scene.fog.back().node = sceneNodes[node];
   }

@@ -1,4 +1,4 @@
-// The medium: constituents with their phase functions, and how far one sees.
+// The medium: constituents with their phase functions, and how far one sees; light of the surroundings; fog.
 #include "Panels.h"
 #include "Widgets.h"
 
@@ -134,7 +134,7 @@ void drawAmbient(Viewer& viewer) {
 
 // Of a scene in which the effect lights banks of it, or smoke.
 void drawFog(Viewer& viewer) {
-  if (!viewer.lightsFog()) return;
+  if (!viewer.lightsFog() && !viewer.state().fog) return;
   const settings::StateFog ofScene = viewer.fogOf(settings::State());
   settings::State state = viewer.state();
   if (heading("Fog", !state.fog)) {

@@ -77,10 +77,13 @@ std::string failureOf(const gl::Variant& variant) {
 
 } // namespace
 
-BuiltPrograms buildEmbeddedPairs(bool dualSource) {
+BuiltPrograms buildEmbeddedPairs() {
   testContext();
+  std::vector<gl::Variant> all = allVariants(true);
+  const std::vector<gl::Variant> oneSource = allVariants(false);
+  all.insert(all.end(), oneSource.begin(), oneSource.end());
   BuiltPrograms built;
-  for (const gl::Variant& variant : coverPairs(allVariants(dualSource))) {
+  for (const gl::Variant& variant : coverPairs(all)) {
     ++built.count;
     if (std::string failure = failureOf(variant); !failure.empty()) built.failures.push_back(std::move(failure));
   }

@@ -11,8 +11,9 @@ struct BuiltPrograms {
   std::vector<std::string> failures; ///< names, and what the driver says
 };
 
-/// Builds a set of programs in which every two definitions that any program of a shader has together are together in
-/// one of that shader's: under half of all of them, which tell what all would but for what only three make together.
-BuiltPrograms buildEmbeddedPairs(bool dualSource);
+/// Builds a set of programs, with dual-source blending and without, in which every two definitions that any program of
+/// a shader has together are together in one of that shader's: under half of all of them, which tell what all would but
+/// for what only three make together.
+BuiltPrograms buildEmbeddedPairs();
 
 } // namespace tests

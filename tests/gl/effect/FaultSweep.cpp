@@ -30,9 +30,7 @@ std::string Findings::text() const {
 std::string nameOf(const SweepOptions& options) {
   constexpr const char* kTimes[] = {", from the k-th on", ", only the k-th", ", by the seed k"};
   return nameOf(options.kind) + std::string(kTimes[static_cast<std::size_t>(options.times)]) +
-         (options.inTurn ? ", used and fresh effects in turn"
-          : options.used ? ", used effect"
-                         : ", fresh effect");
+         (options.used ? ", used effect" : ", fresh effect") + (options.inTurn ? ", then the other in turn" : "");
 }
 
 bool isStatusOf(Fault kind, const Status& status) {

@@ -143,7 +143,7 @@ void makeFog(Case& made, Random& random) {
 }
 
 // In every fourth family but the first few something stands before the eye: curves of four nodes, 16 bits a number. Of
-// the first, of which a test draws thousands of frames, none: their reference takes three times as long.
+// the first, of which a test draws hundreds of frames, none: their reference takes three times as long.
 void makeEyeCurves(Case& made, const AxisSet& simple) {
   Random random(made.seed, Axis::EyeCurves), family = Random::ofFamily(made.seed, Axis::EyeCurves);
   constexpr std::uint64_t kFirstFamily = 7;

@@ -30,6 +30,7 @@ TEST_CASE("Banks of fog are read from nodes, what they scatter from the scene", 
   CHECK(bank.billows == glm::ivec3(3, 1, 2));
   CHECK(bank.clear == 0.5);
   CHECK(bank.seed == 9);
+  REQUIRE(scene.fogScattering);
   CHECK(scene.fogScattering->albedo == tyndall::Rgb{0.5F, 0.25F, 1});
   CHECK(scene.fogScattering->g == -0.5F);
   const std::vector<host::Bounds> bounds = host::fogBounds(scene, host::poseAt(scene, 0));
