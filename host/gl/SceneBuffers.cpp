@@ -68,6 +68,8 @@ SceneBuffers::Primitive upload(const Primitive& primitive) {
   setAttribute(0, 3, offsetof(Vertex, position));
   setAttribute(1, 3, offsetof(Vertex, normal));
   setAttribute(2, 2, offsetof(Vertex, uv));
+  gl().EnableVertexAttribArray(3);
+  gl().VertexAttribPointer(3, 4, GL_UNSIGNED_SHORT, GL_TRUE, sizeof(Vertex), bufferOffset(offsetof(Vertex, colour)));
   gl().BindVertexArray(0);
   gl().BindBuffer(GL_ARRAY_BUFFER, 0);
   if (!primitive.vertices.empty()) {

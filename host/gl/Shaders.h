@@ -57,15 +57,18 @@ inline constexpr const char* kSurfaceVertex = R"(#version 330 core
 layout(location = 0) in vec3 nodePosition;
 layout(location = 1) in vec3 nodeNormal;
 layout(location = 2) in vec2 uv;
+layout(location = 3) in vec4 colour;
 uniform mat4 clipFromNode;
 uniform mat4 relativeFromNode;
 uniform mat3 relativeFromNodeNormal;
 out vec3 relativePosition;
 out vec3 relativeNormal;
 out vec2 surfaceUv;
+out vec3 surfaceColour;
 invariant gl_Position;
 void main() {
   surfaceUv = uv;
+  surfaceColour = colour.rgb;
   relativePosition = (relativeFromNode * vec4(nodePosition, 1.0)).xyz;
   relativeNormal = relativeFromNodeNormal * nodeNormal;
   gl_Position = clipFromNode * vec4(nodePosition, 1.0);
@@ -78,6 +81,7 @@ inline constexpr const char* kSurfaceFragment = R"(
 in vec3 relativePosition;
 in vec3 relativeNormal;
 in vec2 surfaceUv;
+in vec3 surfaceColour;
 layout(location = 0) out vec4 radiance;
 
 uniform sampler2D baseTexture;
@@ -131,7 +135,7 @@ void main() {
   vec3 normal = dot(relativeNormal, relativeNormal) > 0.0 ? normalize(relativeNormal) : face;
   if (dot(normal, face) < 0.0) normal = -normal;
 
-  vec3 albedo = baseColour.rgb * texel.rgb;
+  vec3 albedo = baseColour.rgb * texel.rgb * surfaceColour;
   vec3 result = vec3(0.0);
   if (pass == AMBIENT) result = emission + (unlit ? albedo : ambient(albedo, normal));
   else if (!unlit) result = albedo / kPi * irradiance(normal, face);

@@ -16,6 +16,7 @@ struct Vertex {
   glm::vec3 position{0};
   glm::vec3 normal{0, 1, 0};
   glm::vec2 uv{0};
+  glm::u16vec4 colour{65535}; ///< times the material's base colour, linear, 65535 is 1; alpha is not used
 };
 
 enum class Topology { Points, Lines, Triangles };

@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 
 // glTF's numbers, which are GL's.
-constexpr int kUnsignedInt = 5125, kFloat = 5126;
+constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 constexpr int kLines = 1, kTriangles = 4;
 
@@ -76,6 +76,17 @@ int appendVectors(Document& document, const std::vector<glm::dvec3>& vectors, bo
   return appendItems(document, packed, kArrayBuffer, std::move(accessor));
 }
 
+/// In steps of a thousandth: files are packed.
+int appendColours(Document& document, const std::vector<glm::dvec3>& colours) {
+  constexpr double kSteps = 1023, kStep = 64;
+  std::vector<glm::u16vec4> packed;
+  packed.reserve(colours.size());
+  for (const glm::dvec3& colour : colours)
+    packed.emplace_back(glm::u16vec3(kStep * glm::round(kSteps * glm::clamp(colour, 0.0, 1.0))), 65535);
+  return appendItems(document, packed, kArrayBuffer,
+                     {{"componentType", kUnsignedShort}, {"type", "VEC4"}, {"normalized", true}});
+}
+
 int appendIndices(Document& document, const std::vector<std::uint32_t>& indices) {
   return appendItems(document, indices, kElementArrayBuffer, {{"componentType", kUnsignedInt}, {"type", "SCALAR"}});
 }
@@ -120,9 +131,11 @@ int appendMesh(Document& document, const std::string& name, const std::vector<Su
     if (surface.indices.empty()) continue;
     const int positions = appendVectors(document, surface.positions, true);
     const int normals = appendVectors(document, surface.normals, false);
+    json attributes = {{"POSITION", positions}, {"NORMAL", normals}};
+    if (!surface.colours.empty()) attributes["COLOR_0"] = appendColours(document, surface.colours);
     primitives.push_back({{"mode", kTriangles},
                           {"material", materials[i]},
-                          {"attributes", {{"POSITION", positions}, {"NORMAL", normals}}},
+                          {"attributes", attributes},
                           {"indices", appendIndices(document, surface.indices)}});
   }
   return append(document, "meshes", {{"name", name}, {"primitives", primitives}});

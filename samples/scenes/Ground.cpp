@@ -56,4 +56,21 @@ void cover(MeshBuilder& mesh, const Ground& ground, CoverAt coverAt, const std::
   }
 }
 
+void paint(MeshBuilder& mesh, const Ground& ground, ColourAt colourAt) {
+  const int n = ground.field.size;
+  std::vector<std::uint32_t> row, last;
+  for (int y = 0; y < n; ++y) {
+    last.swap(row);
+    row.clear();
+    for (int x = 0; x < n; ++x) {
+      const glm::dvec3 point = ground.point(x, y), normal = ground.normal(x, y);
+      row.push_back(mesh.vertex(point, normal, colourAt(point, normal)));
+    }
+    for (std::size_t x = 0; y > 0 && x + 1 < row.size(); ++x) {
+      mesh.triangle(last[x], row[x], row[x + 1]);
+      mesh.triangle(last[x], row[x + 1], last[x + 1]);
+    }
+  }
+}
+
 } // namespace scenes

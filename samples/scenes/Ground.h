@@ -24,4 +24,10 @@ using CoverAt = int (*)(const glm::dvec3& middle, const glm::dvec3& normal, doub
 /// Both triangles of each cell, material by material.
 void cover(MeshBuilder& mesh, const Ground& ground, CoverAt coverAt, const std::vector<int>& materials);
 
+/// The colour of a point, 0 to 1, for the ground's normal there.
+using ColourAt = glm::dvec3 (*)(const glm::dvec3& point, const glm::dvec3& normal);
+
+/// Both triangles of each cell, of the mesh's material, with a colour at each point.
+void paint(MeshBuilder& mesh, const Ground& ground, ColourAt colourAt);
+
 } // namespace scenes

@@ -57,6 +57,11 @@ std::uint32_t MeshBuilder::vertex(const glm::dvec3& position, const glm::dvec3& 
   return static_cast<std::uint32_t>(surface.positions.size()) - 1;
 }
 
+std::uint32_t MeshBuilder::vertex(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& colour) {
+  surfaces_[static_cast<std::size_t>(material_)].colours.push_back(colour);
+  return vertex(position, normal);
+}
+
 void MeshBuilder::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   Surface& surface = surfaces_[static_cast<std::size_t>(material_)];
   const auto& p = surface.positions;

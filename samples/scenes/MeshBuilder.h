@@ -23,6 +23,8 @@ public:
   MeshBuilder& frame(const glm::dmat4& worldFromLocal);
 
   std::uint32_t vertex(const glm::dvec3& position, const glm::dvec3& normal);
+  /// With a colour of its own, 0 to 1, that the material's is multiplied by: of all vertices of a material or none.
+  std::uint32_t vertex(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& colour);
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
   /// A flat convex polygon; polygons without area are left out.

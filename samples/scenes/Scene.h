@@ -22,6 +22,7 @@ struct Material {
 struct Surface {
   std::vector<glm::dvec3> positions;
   std::vector<glm::dvec3> normals;
+  std::vector<glm::dvec3> colours; ///< times the material's, 0 to 1; none, or one a vertex
   std::vector<std::uint32_t> indices;
 };
 

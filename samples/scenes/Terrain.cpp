@@ -52,16 +52,29 @@ HeightField mountains() {
   return field;
 }
 
-enum Cover { Grass, Forest, Scree, Rock, DarkRock, Snow };
+// Linear colours of the ground, and the brightest, of which they are parts.
+const glm::dvec3 kMeadow{0.095, 0.1, 0.05}, kForest{0.035, 0.06, 0.025}, kScree{0.24, 0.22, 0.19},
+    kRock{0.19, 0.165, 0.14}, kDarkRock{0.115, 0.1, 0.088}, kSnow{0.82, 0.84, 0.88}, kBrightest{0.9};
 
-/// The cover of a triangle; `chance` in [0, 1) frays the borders.
-int coverAt(const glm::dvec3& p, const glm::dvec3& normal, double chance) {
-  const double patches = fractal({p.x / 900, p.z / 900}, 4, 91) + 0.1 * (chance - 0.5);
-  const double steep = 1 - normal.y;
-  if (p.y > 1800 + 450 * patches && steep < 0.3 + 0.1 * patches) return Snow;
-  if (steep > 0.22) return patches > 0 ? Rock : DarkRock;
-  if (p.y > 1200 + 300 * patches) return steep > 0.1 ? Scree : Rock;
-  return patches > 0.02 || p.y > 850 ? Grass : Forest;
+/// From 0 to 1 where x goes from -width to width.
+double step(double x, double width) {
+  const double t = std::clamp(0.5 + 0.5 * x / width, 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+/// Forest in the valleys, meadows above it, scree and rock, and snow where it can lie.
+glm::dvec3 colourAt(const glm::dvec3& p, const glm::dvec3& normal) {
+  const glm::dvec2 place(p.x, p.z);
+  const double patches = fractal(place / 900.0, 6, 91), fine = fractal(place / 110.0, 3, 57);
+  const double steep = 1 - normal.y + 0.02 * fine, height = p.y + 60 * fine;
+  const double wooded = step(0.03 - patches + 0.3 * fine, 0.05) * step(850 + 150 * patches - height, 90);
+  const double bare = step(height - 1250 - 300 * patches, 140), cliff = step(steep - 0.2, 0.05);
+  const double snowed = step(height - 1750 - 450 * patches, 110) * step(0.32 + 0.1 * patches - steep, 0.05);
+  glm::dvec3 colour = glm::mix(kMeadow, kForest, wooded);
+  colour = glm::mix(colour, glm::mix(kRock, kScree, step(steep - 0.1, 0.04)), bare);
+  colour = glm::mix(colour, glm::mix(kDarkRock, kRock, step(patches + 0.4 * fine, 0.2)), cliff);
+  colour *= 1 + 0.25 * fine;
+  return glm::mix(colour, kSnow, snowed) / kBrightest;
 }
 
 } // namespace
@@ -79,12 +92,9 @@ Scene makeTerrain() {
   scene.absorption = glm::dvec3(1e-6);
   scene.sky = {1.1, 1.35, 1.75};
 
-  const std::vector<int> materials = {
-      scene.add({"meadow", {0.095, 0.1, 0.05}}),     scene.add({"forest", {0.035, 0.06, 0.025}}),
-      scene.add({"scree", {0.24, 0.22, 0.19}}),      scene.add({"rock", {0.19, 0.165, 0.14}}),
-      scene.add({"dark rock", {0.13, 0.115, 0.10}}), scene.add({"snow", {0.82, 0.84, 0.88}})};
   MeshBuilder mesh(scene);
-  cover(mesh, {mountains()}, coverAt, materials);
+  mesh.material(scene.add({"ground", kBrightest}));
+  paint(mesh, {mountains()}, colourAt);
   return scene;
 }
 

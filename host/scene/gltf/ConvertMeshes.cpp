@@ -4,7 +4,9 @@
 #include "Layout.h"
 #include "Unroll.h"
 
+#include <algorithm>
 #include <cmath>
+#include <scene/Error.h>
 
 namespace host::gltf {
 
@@ -19,6 +21,8 @@ bool isAllowedFormat(std::string_view attribute, const Accessor& accessor, bool 
   const bool isShort = componentSize(type) < 4;
   if (attribute == "POSITION") return components == 3 && (isFloat || (quantized && isShort));
   if (attribute == "NORMAL") return components == 3 && (isFloat || (quantized && isSigned && accessor.normalized));
+  if (attribute == "COLOR_0")
+    return (components == 3 || components == 4) && (isFloat || (isShort && !isSigned && accessor.normalized));
   const bool isTexCoord = isShort && ((accessor.normalized && !isSigned) || quantized);
   return components == 2 && (isFloat || isTexCoord);
 }
@@ -60,6 +64,7 @@ public:
     }
     if (has("NORMAL")) readNormals(result);
     if (coordinates.needed) readTextureCoordinates(coordinates, result);
+    if (has("COLOR_0")) readColours(result);
     return result;
   }
 
@@ -120,6 +125,31 @@ private:
     }
   }
 
+  /// They only tint: those that cannot be read are left out.
+  void readColours(std::vector<Vertex>& vertices) {
+    const std::string where = where_ + ".attributes.COLOR_0";
+    std::vector<float> colours;
+    try {
+      colours = attribute("COLOR_0");
+    } catch (const Error& error) {
+      return document_.note(where, std::string("vertex colours are ignored: ") + error.what());
+    }
+    const Accessor accessor = accessorAt(document_, attributes_["COLOR_0"].get<int>());
+    const auto components = static_cast<std::size_t>(accessor.components);
+    bool isClamped = false, hasAlpha = false;
+    for (std::size_t i = 0; i < std::min(vertices.size(), colours.size() / components); ++i) {
+      for (int c = 0; c < 3; ++c) {
+        const float given = colours[components * i + static_cast<std::size_t>(c)];
+        const float value = given >= 0 ? std::min(given, 1.0F) : 0.0F; // NaN is 0
+        isClamped = isClamped || value != given;
+        vertices[i].colour[c] = static_cast<std::uint16_t>(std::lround(65535 * value));
+      }
+      hasAlpha = hasAlpha || (components == 4 && colours[4 * i + 3] != 1);
+    }
+    if (isClamped) document_.note(where, "some vertex colours are not from 0 to 1; taken as the nearest that is");
+    if (hasAlpha) document_.note(where, "the alpha of vertex colours is ignored");
+  }
+
   Document& document_;
   const nlohmann::json& attributes_;
   int indices_; // accessor, or -1
@@ -134,7 +164,6 @@ bool convertPrimitive(Document& document, const nlohmann::json& source, const st
     document.note(where + ".attributes.POSITION", "is missing; the primitive is left out");
     return false;
   }
-  if (reader.has("COLOR_0")) document.note(where + ".attributes.COLOR_0", "vertex colours are ignored");
   result.vertices = reader.vertices(coordinates);
   const std::vector<std::uint32_t> indices = reader.indices(result.vertices.size());
 

@@ -120,6 +120,18 @@ TEST_CASE("base colour textures are sRGB", "[surface]") {
   checkRgb(render(scene, {sun({0, 0, -1}, {1, 1, 1})}).at(kMiddle), glm::dvec3(linear, 1, 0) / kPi, 2e-3);
 }
 
+TEST_CASE("colours of vertices tint the base colour, linearly", "[surface]") {
+  tests::testContext();
+  host::Scene scene = tests::emptyScene();
+  scene.materials[0].baseColour = {0.5F, 1, 1, 1};
+  addWall(scene, 0, 2);
+  for (host::Primitive& primitive : scene.meshes.back().primitives)
+    for (host::Vertex& vertex : primitive.vertices)
+      vertex.colour = {65535, vertex.position.x < 0 ? 0 : 65535, 13107, 0};
+  const Picture picture = render(scene, {sun({0, 0, -1}, {1, 1, 1})});
+  checkRgb(picture.at(kMiddle), glm::dvec3(0.5, 0.5 + 0.5 / kSide, 0.2) / kPi, 2e-3);
+}
+
 TEST_CASE("point and spot lights fall off as glTF says", "[surface]") {
   tests::testContext();
   host::Scene scene = tests::emptyScene();

@@ -97,6 +97,40 @@ TEST_CASE("Normals that cannot be normalised are taken from the triangles", "[sc
   CHECK(hasNote(scene, "meshes[0].primitives[0].attributes.NORMAL"));
 }
 
+TEST_CASE("Vertex colours are read in all types that glTF allows", "[scene][gltf]") {
+  using Colour = glm::u16vec4;
+  const auto load = [](const char* type, int componentType, const auto& values, bool normalized = true) {
+    GltfFile file;
+    const int positions = file.floats({0, 0, 0, 1, 0, 0}, "VEC3", 3);
+    const int colours = file.accessor(file.view(values), componentType, type, 2);
+    if (normalized) file.json["accessors"][static_cast<std::size_t>(colours)]["normalized"] = true;
+    file.show({{"attributes", {{"POSITION", positions}, {"COLOR_0", colours}}}, {"mode", 0}});
+    return file.load();
+  };
+  const auto coloursOf = [](const host::Scene& scene) {
+    const std::vector<host::Vertex>& vertices = scene.meshes.at(0).primitives.at(0).vertices;
+    return std::array<Colour, 2>{vertices.at(0).colour, vertices.at(1).colour};
+  };
+  const char* const kWhere = "meshes[0].primitives[0].attributes.COLOR_0";
+  const std::array<Colour, 2> wanted = {Colour(0, 65535, 13107, 65535), Colour(65535, 0, 65535, 65535)};
+  const host::Scene floats = load("VEC3", kFloat, std::vector<float>{0, 1, 0.2F, 1, 0, 1}, false);
+  CHECK(coloursOf(floats) == wanted);
+  CHECK_FALSE(hasNote(floats, kWhere));
+  CHECK(coloursOf(load("VEC4", kUnsignedShort,
+                       std::vector<std::uint16_t>{0, 65535, 13107, 65535, 65535, 0, 65535, 65535})) == wanted);
+  CHECK(coloursOf(load("VEC4", kUnsignedByte, std::vector<std::uint8_t>{0, 255, 51, 255, 255, 0, 255, 255})) == wanted);
+  // What is out of range, or of another type, is said.
+  const host::Scene wild = load("VEC3", kFloat, std::vector<float>{-1, 7, 0.2F, 1, NAN, 1}, false);
+  CHECK(coloursOf(wild) == wanted);
+  CHECK(hasNote(wild, kWhere));
+  const host::Scene veiled = load("VEC4", kFloat, std::vector<float>{0, 1, 0.2F, 0.5F, 1, 0, 1, 1}, false);
+  CHECK(coloursOf(veiled) == wanted);
+  CHECK(hasNote(veiled, kWhere));
+  const host::Scene whole = load("VEC3", kUnsignedInt, std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5}, false);
+  CHECK(coloursOf(whole) == std::array<Colour, 2>{Colour(65535), Colour(65535)});
+  CHECK(hasNote(whole, kWhere));
+}
+
 TEST_CASE("Interleaved attributes are told apart", "[scene][gltf]") {
   const host::Primitive square = everything().load().meshes.at(0).primitives.at(0);
   REQUIRE(square.vertices.size() == 4);
