@@ -3,7 +3,6 @@
 #include "render/SceneAnswers.h"
 #include "support/Catch.h"
 
-#include <gl/ReadBack.h>
 #include <render/RenderFrame.h>
 
 using namespace tyndall;
@@ -13,15 +12,9 @@ namespace {
 constexpr int kWidth = 320, kHeight = 180;
 
 reference::Image inscatterBy(Effect& effect, Frame frame, Technique technique) {
-  const host::GlTexture inscatter = host::makeTexture2D(GL_RGBA32F, kWidth, kHeight);
-  frame.colour = 0;
-  frame.output = {inscatter.name(), 0};
   frame.settings = settingsOf(Profile::High);
   frame.settings.technique = technique;
-  const Status status = effect.render(frame);
-  INFO(status.message);
-  REQUIRE(status);
-  return {kWidth, kHeight, host::readColour(inscatter.name(), kWidth, kHeight, 3)};
+  return tests::inscatterOf(effect, frame);
 }
 
 } // namespace

@@ -3,7 +3,6 @@
 #include "render/SceneAnswers.h"
 #include "support/Catch.h"
 
-#include <gl/ReadBack.h>
 #include <render/RenderFrame.h>
 
 using namespace tyndall;
@@ -14,16 +13,10 @@ constexpr int kWidth = 96, kHeight = 54;
 
 // Inscatter of a frame whose lights are k times as bright, divided by k.
 reference::Image inscatterAt(Effect& effect, Frame frame, float k) {
-  const host::GlTexture inscatter = host::makeTexture2D(GL_RGBA32F, kWidth, kHeight);
-  frame.colour = 0;
-  frame.output = {inscatter.name(), 0};
   for (Light& light : frame.lights)
     for (float& channel : light.colour)
       channel *= k;
-  const Status status = effect.render(frame);
-  INFO(status.message);
-  REQUIRE(status);
-  reference::Image image(kWidth, kHeight, host::readColour(inscatter.name(), kWidth, kHeight, 3));
+  reference::Image image = tests::inscatterOf(effect, frame);
   for (double& value : image.rgb)
     value /= k;
   return image;

@@ -4,6 +4,7 @@
 #include <gl/ReadBack.h>
 #include <render/OptionRules.h>
 #include <render/RenderFrame.h>
+#include <scene/Error.h>
 #include <scene/Places.h>
 
 namespace tests {
@@ -52,6 +53,15 @@ render::Options sampleOptions(const std::string& scene, int width, int height, i
   options.shadowSize = shadowSize;
   if (const char* context = std::getenv("TYNDALL_TEST_CONTEXT")) options.context = host::parseContextKind(context);
   return options;
+}
+
+reference::Image inscatterOf(tyndall::Effect& effect, tyndall::Frame frame) {
+  const int width = frame.viewport.width, height = frame.viewport.height;
+  const host::GlTexture inscatter = host::makeTexture2D(GL_RGBA32F, width, height);
+  frame.colour = 0;
+  frame.output = {inscatter.name(), 0};
+  if (const tyndall::Status status = effect.render(frame); !status) throw host::Error(status.message);
+  return {width, height, host::readColour(inscatter.name(), width, height, 3)};
 }
 
 SceneAnswers renderScene(const render::Options& options) {

@@ -26,6 +26,9 @@ struct SceneAnswers {
 /// Renders frame 0.
 SceneAnswers renderScene(const render::Options& options);
 
+/// Inscatter alone that an effect draws of a frame, in the size of its viewport. Throws host::Error if it refuses.
+reference::Image inscatterOf(tyndall::Effect& effect, tyndall::Frame frame);
+
 /// The scenes that a command line names, all if it names none. Throws as render::parseArguments() does.
 std::vector<std::string> parseSceneNames(const std::string& description, int argc, const char* const* argv);
 

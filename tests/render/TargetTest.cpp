@@ -3,7 +3,6 @@
 #include "render/SceneAnswers.h"
 #include "support/Catch.h"
 
-#include <gl/ReadBack.h>
 #include <render/RenderFrame.h>
 
 using namespace tyndall;
@@ -12,15 +11,9 @@ namespace {
 
 constexpr int kWidth = 640, kHeight = 360, kShadowSize = 2048;
 
-reference::Image inscatterOf(Effect& effect, Frame frame, const Settings& settings) {
-  const host::GlTexture inscatter = host::makeTexture2D(GL_RGBA32F, kWidth, kHeight);
-  frame.colour = 0;
-  frame.output = {inscatter.name(), 0};
+reference::Image inscatterWith(Effect& effect, Frame frame, const Settings& settings) {
   frame.settings = settings;
-  const Status status = effect.render(frame);
-  INFO(status.message);
-  REQUIRE(status);
-  return {kWidth, kHeight, host::readColour(inscatter.name(), kWidth, kHeight, 3)};
+  return tests::inscatterOf(effect, frame);
 }
 
 } // namespace
@@ -35,13 +28,13 @@ TEST_CASE("where its error target is out of reach a picture errs no more than by
     const CreateResult created = Effect::create({renderer.context().loader(), PassTiming::Off});
     REQUIRE(created.effect);
     Effect& effect = *created.effect;
-    const reference::Image exact = inscatterOf(effect, renderer.frame(), settingsOf(Profile::Reference));
+    const reference::Image exact = inscatterWith(effect, renderer.frame(), settingsOf(Profile::Reference));
     Settings settings = settingsOf(Profile::High);
     settings.slices = 480; // a choice, since there are more pixels than twice as many along the border
-    const reference::ErrorMetrics even = reference::compare(inscatterOf(effect, renderer.frame(), settings), exact);
+    const reference::ErrorMetrics even = reference::compare(inscatterWith(effect, renderer.frame(), settings), exact);
     const auto slices = static_cast<double>(effect.statistics().drawnSlices);
     settings.errorTarget = 0.001F;
-    const reference::ErrorMetrics chosen = reference::compare(inscatterOf(effect, renderer.frame(), settings), exact);
+    const reference::ErrorMetrics chosen = reference::compare(inscatterWith(effect, renderer.frame(), settings), exact);
     const Statistics statistics = effect.statistics();
     CAPTURE(scene, even.text(), chosen.text(), slices, statistics.drawnSlices, statistics.errorEstimate);
     CHECK(statistics.errorEstimate > 0.002);

@@ -1,4 +1,4 @@
-// The effect's programs as OpenGL ES is given them, built in the current context.
+// The effect's programs as OpenGL ES is given them.
 #pragma once
 
 #include <string>
@@ -6,14 +6,13 @@
 
 namespace tests {
 
-struct BuiltPrograms {
-  int count = 0;                     ///< that were asked for
-  std::vector<std::string> failures; ///< names, and what the driver says
+struct ProgramText {
+  std::string name, vertex, fragment;
 };
 
-/// Builds a set of programs, with dual-source blending and without, in which every two definitions that any program of
-/// a shader has together are together in one of that shader's: under half of all of them, which tell what all would but
-/// for what only three make together.
-BuiltPrograms buildEmbeddedPairs();
+/// Programs, with dual-source blending and without, of which every two definitions that any program of a shader has
+/// together are together in one of that shader's: under half of all of them, which tell what all would but for what
+/// only three make together.
+std::vector<ProgramText> embeddedPairs();
 
 } // namespace tests
