@@ -36,7 +36,22 @@ build_sanitized() {
 run_cases() {
   folder=$1
   shift
+  rm -f "$folder/Testing/Temporary/LastTestsFailed.log"
   ctest --test-dir "$folder" --output-on-failure --no-tests=error -j "$test_jobs" "$@"
+}
+
+# What failed, once more at the end, where a long log is looked at first: names, and the end of what each one printed.
+say_failures() {
+  for folder in build build-sanitize; do
+    log=$folder/Testing/Temporary/LastTest.log
+    [ ! -s "$folder/Testing/Temporary/LastTestsFailed.log" ] || awk -v most=25 '
+      / Testing: / { name = $0; sub(/.* Testing: /, "", name); count = 0 }
+      { lines[count++ % most] = $0 }
+      /^Test (Failed|Timeout|Exception)/ {
+        print "-- " name
+        for (i = count > most ? count - most : 0; i < count; ++i) print "   " lines[i % most]
+      }' "$log"
+  done
 }
 
 # Says which cases were not run, in groups: what stands before the first dot or two of a name.
@@ -83,4 +98,4 @@ for step in lint test_plain build_sanitized test_sanitized; do
   "$step" || failed="$failed $step"
   say "$step took $(($(date +%s) - started)) s"
 done
-[ -z "$failed" ] || { say "FAILED:$failed" && exit 1; }
+[ -z "$failed" ] || { say "FAILED:$failed" && say_failures && exit 1; }

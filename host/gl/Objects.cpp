@@ -70,9 +70,10 @@ std::string withDefines(const char* source, const std::vector<std::string>& defi
   return text.insert(text.find('\n') + 1, lines);
 }
 
-/// GLSL as the context wants it.
+/// GLSL as the context wants it. A text that says itself to be ESSL is left as it is.
 std::string inLanguage(const std::string& source) {
-  if (!isEmbedded()) return source;
+  const std::string version = source.substr(0, source.find('\n'));
+  if (!isEmbedded() || version.find(" es") != std::string::npos) return source;
   const std::string precisions = "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
   return "#version 320 es\n" + precisions + source.substr(source.find('\n') + 1);
 }

@@ -74,7 +74,8 @@ void requireCompleteFramebuffer(const std::string& what);
 /// A linked program. set() needs it in use; a uniform that the program lacks is ignored, as GL does.
 class Program {
 public:
-  /// Lines "#define X" go behind the #version line. Throws host::Error with the log.
+  /// Lines "#define X" go behind the #version line; desktop GLSL is turned into ESSL where the context wants that.
+  /// Throws host::Error with the log.
   Program(const std::string& name, const char* vertexSource, const char* fragmentSource,
           const std::vector<std::string>& defines = {});
 
