@@ -9,11 +9,27 @@ Way wayOf(Airlight light, float P, float s) {
   return Way(min(eyeDepth, Spectrum(kEndless)), min(wholeDepth, Spectrum(kEndless)));
 }
 
-// Change of the logarithm of what layers scatter and let through a unit of length, at s, at most: the way from the lamp grows, and its mean
-// density changes with the height.
-float layersRate(Airlight light, float s) {
+// Optical depth of the light's way by a point of [s0, s1], about where that is least: at an end, or next to the lamp.
+Spectrum shortestWay(Airlight light, float s0, float s1) {
+  Spectrum least = Spectrum(kEndless);
+  for (int i = 0; i < 3; ++i) {
+    float s = i == 0 ? s0 : i == 1 ? s1 : clamp(light.foot, s0, s1), t = s - light.foot, r = sqrt(t * t + light.height2);
+    least = min(least, wayOf(light, t > 0.0 ? r + t : light.height2 / (r - t), s).whole);
+  }
+  return least;
+}
+
+// What layers take of the light a unit of length, at s, at most, in each channel: the way from the lamp grows, and its mean density changes
+// with the height.
+Spectrum layersTaken(Airlight light, float s) {
   Layers here = light.heights.begin + s * light.heights.slope, lamp = exponentsAt(lightPosition), density = densities(here), mean = meanDensities(lamp, here);
   float t = s - light.foot, r = sqrt(t * t + light.height2);
   Layers slope = abs(light.heights.slope), change = min(abs(mean - density) / max(abs(here - lamp), 1e-30), max(mean, density));
-  return greatestOf(layersExtinction(density + mean + r * slope * change)) + sumOf(slope * aboveGround(here));
+  return layersExtinction(density + mean + r * slope * change);
+}
+
+// Change of the logarithm of what they scatter and let through a unit of length, at s, at most.
+float layersRate(Airlight light, float s) {
+  Layers here = light.heights.begin + s * light.heights.slope;
+  return greatestOf(layersTaken(light, s)) + sumOf(abs(light.heights.slope) * aboveGround(here));
 }

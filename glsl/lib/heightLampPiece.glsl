@@ -39,7 +39,7 @@ void addPiece(Airlight light, float s0, float s1, Weight visibility, inout Light
 #else
   const float longPanel = 1.75, shortPanel = 0.2;
 #endif
-  Followed followed = followedOf(light.heights, s0, s1, Layers(max(r0, r1)));
+  Followed followed = followedOf(light.heights, Layers(s0), Layers(s1), Layers(max(r0, r1)));
   Way way = wayOf(light, P, s0);
   Spectrum least = way.whole;
   float s = s0;

@@ -37,7 +37,7 @@ struct Followed {
 };
 
 // lightLength: how far light comes through a layer, at a density of 1.
-Followed followedOf(Heights heights, float s0, float s1, Layers lightLength) {
+Followed followedOf(Heights heights, Layers s0, Layers s1, Layers lightLength) {
   Layers e0 = heights.begin + s0 * heights.slope, e1 = heights.begin + s1 * heights.slope, low = max(min(e0, e1), groundExponents());
   Layers most = mostExtinction(), rate = abs(heights.slope), inverse = 1.0 / max(rate, 1e-30);
   rate *= aboveGround(0.5 * (e0 + e1)) * moreThan(most * inverse * exp(-low), Layers(1e-20), Layers(1.0), Layers(0.0));
@@ -46,7 +46,7 @@ Followed followedOf(Heights heights, float s0, float s1, Layers lightLength) {
   // Growing along the ray, it is brightest at s1 or that far up; thinning out, at s0 or where light comes down to.
   Layers growing = s0 + max(e0 - max(low, max(eyeDepth, lightDepth)) - kUnseen, 0.0) * inverse;
   Layers thinning = s0 + (kUnseen + max(lightDepth - low, 0.0)) * inverse;
-  Layers first = moreThan(heights.slope, Layers(0.0), Layers(s0), growing), last = moreThan(heights.slope, Layers(0.0), thinning, Layers(s1));
+  Layers first = moreThan(heights.slope, Layers(0.0), s0, growing), last = moreThan(heights.slope, Layers(0.0), thinning, s1);
   return Followed(rate, first, moreThan(rate, Layers(0.0), last, Layers(-1.0)));
 }
 
@@ -59,6 +59,27 @@ float stepFrom(Followed followed, float s) {
 float foldsOver(Followed followed, float s, float len) {
   Layers begun = moreThan(Layers(s + len), followed.first, followed.rate, Layers(0.0));
   return len * sumOf(moreThan(followed.last, Layers(s), begun, Layers(0.0)));
+}
+
+// The same for the pieces of [s0, s1] that s lies in.
+Followed followedAt(Heights heights, float s0, float s1, float s, Layers lightLength) {
+  Layers crossings = groundCrossings(heights), begin = Layers(s0), end = Layers(s1);
+  begin = moreThan(crossings, Layers(s), begin, max(crossings, begin));
+  end = moreThan(crossings, Layers(s), min(crossings, end), end);
+  return followedOf(heights, begin, end, lightLength);
+}
+
+// A length from s on over which light changes by about a twentieth in the channel that needs most care, but more where less is left: where the
+// way is longer than the shortest or, which tells of twenty depths on, long in all. taken: how many depths a unit of length it grows by or,
+// towards where it is shortest, falls.
+float steadyLength(Heights heights, Followed followed, float s, Spectrum way, Spectrum shortest, Spectrum taken) {
+  Spectrum gone = max(max(way - shortest, 0.5 * way - 10.0), Spectrum(0.0));
+  Layers ahead = followed.first - s, begun = moreThan(ahead, Layers(0.0), Layers(0.0), followed.rate);
+  float folds = sumOf(moreThan(followed.last, Layers(s), begun, Layers(0.0)));
+  Spectrum len = 0.05 * exp(0.25 * min(gone, Spectrum(240.0))) / max(taken + folds, Spectrum(1e-30));
+  len = min(len, (0.05 + 0.25 * gone) / max(taken, Spectrum(1e-30)));
+  float toBegin = leastOf(moreThan(min(ahead, followed.last - s), Layers(0.0), ahead, Layers(1e30)));
+  return min(min(-greatestOf(-len), 1.0 / max(folds, 1e-30)), min(toBegin, pieceEnd(groundCrossings(heights), s, 1e30) - s));
 }
 
 // 1 for channels in which light from there on still counts, where the least that the whole way was is known, else 0. (The way to the eye

@@ -37,24 +37,37 @@ Way wayOf(Airlight light, float s) {
   return Way(min(eye, Spectrum(kEndless)), min(whole, Spectrum(kEndless)));
 }
 
-// Change of the airlight's logarithm a unit of length, at s, at most.
-float rateAt(Airlight light, float s) {
-  Layers here = light.heights.begin + s * light.heights.slope, density = densities(here), slope = abs(light.heights.slope);
-  float rate = greatestOf(extinctionOf(density)) + sumOf(slope * aboveGround(here));
+// What is taken of the light a unit of length, at s, at most, in each channel.
+Spectrum takenAt(Airlight light, float s) {
+  Layers here = light.heights.begin + s * light.heights.slope, density = densities(here);
+  Spectrum taken = extinctionOf(density);
 #if LOSES_LIGHT
   // The light's way ends elsewhere on the boundary: pathSlope more of the density there; and all of it is at another height.
   float path = max(light.path + s * light.pathSlope, 0.0);
   Layers fall = exponentSlopes(lightDirection), there = densities(here - path * fall);
-  Layers higher = slope * min(abs(there - density) / max(abs(fall), 1e-30), path * max(there, density));
-  if (path > 0.0) rate += greatestOf(SPECTRUM(extinction)) * abs(light.pathSlope) + greatestOf(layersExtinction(there * abs(light.pathSlope) + higher));
+  Layers higher = abs(light.heights.slope) * min(abs(there - density) / max(abs(fall), 1e-30), path * max(there, density));
+  if (path > 0.0) taken += SPECTRUM(extinction) * abs(light.pathSlope) + layersExtinction(there * abs(light.pathSlope) + higher);
 #endif
-  return rate;
+  return taken;
+}
+
+// Change of the airlight's logarithm a unit of length, at s, at most.
+float rateAt(Airlight light, float s) {
+  Layers here = light.heights.begin + s * light.heights.slope;
+  return greatestOf(takenAt(light, s)) + sumOf(abs(light.heights.slope) * aboveGround(here));
+}
+
+// How far light comes through layers on its way to a span, at a density of 1.
+Layers lightLengths(Airlight light, float s0, float s1) {
+  Layers fall = abs(exponentSlopes(lightDirection)); // e-folds that light comes through, a unit of length
+  return min(1.0 / max(fall, 1e-30), max(light.path + max(s0 * light.pathSlope, s1 * light.pathSlope), 0.0));
 }
 
 // A length from s on over which the airlight changes by about a twentieth in any channel, but more and more where less is left of it.
 float steadyLength(Airlight light, float s0, float s1, float s) {
-  Spectrum gone = clamp(wayOf(light, s).whole - wayOf(light, s0).whole, Spectrum(0.0), Spectrum(240.0));
-  return 0.05 * exp(-0.25 * greatestOf(-gone)) / max(rateAt(light, s), 1e-30);
+  Followed followed = followedAt(light.heights, s0, s1, s, lightLengths(light, s0, s1));
+  Spectrum shortest = min(wayOf(light, s0).whole, wayOf(light, s1).whole);
+  return steadyLength(light.heights, followed, s, wayOf(light, s).whole, shortest, takenAt(light, s));
 }
 
 // True if that is sure to be longer: what it takes to tell is little.
@@ -103,9 +116,7 @@ float longestPanel(Airlight light, Followed followed, Spectrum alive, Spectrum l
 
 // One smooth piece of a span, Gauss-Legendre in each of its panels.
 void addPiece(Airlight light, float s0, float s1, Weight visibility, inout Light sum) {
-  Layers fall = abs(exponentSlopes(lightDirection)); // e-folds that light comes through, a unit of length
-  float longest = max(light.path + max(s0 * light.pathSlope, s1 * light.pathSlope), 0.0);
-  Followed followed = followedOf(light.heights, s0, s1, min(1.0 / max(fall, 1e-30), longest));
+  Followed followed = followedOf(light.heights, Layers(s0), Layers(s1), lightLengths(light, s0, s1));
   Way way = wayOf(light, s0);
   Spectrum least = way.whole;
   float s = s0;
@@ -133,13 +144,14 @@ void addPiece(Airlight light, float s0, float s1, Weight visibility, inout Light
 // span, as a share of itself.
 Spectrum addShort(Airlight light, float s0, float s1, Weight visibility, inout Light sum) {
   float len = s1 - s0, s = 0.5 * (s0 + s1);
-  Layers here = light.heights.begin + s * light.heights.slope, slope = light.heights.slope * aboveGround(here), density = densities(here);
-  Spectrum rate = extinctionOf(density), growth = layersExtinction(density * slope); // of the way to the eye, and what that rate falls by
+  Layers here = light.heights.begin + s * light.heights.slope, slope = len * light.heights.slope * aboveGround(here), density = densities(here);
+  // Over the span, since floats do not hold the square of what a dense layer takes a unit of length: what is taken, what that falls by, ...
+  Spectrum taken = len * extinctionOf(density), growth = len * layersExtinction(density * slope);
   Spectrum depth = s * extinctionOf(meanDensities(light.heights, here, density)), value = phaseOf(light.phases, density);
   Spectrum folds = layersPhase(light.phases, density * slope), folds2 = layersPhase(light.phases, density * slope * slope);
-  Spectrum curve = value * (rate * rate + growth) + 2.0 * rate * folds + folds2, passed = exp(-depth) * len;
-  sum += visibility * Light(passed * (value + len * len / 24.0 * curve));
-  return len * (rate + folds / max(value, Spectrum(1e-37)));
+  Spectrum curve = value * (taken * taken + growth) + 2.0 * taken * folds + folds2;
+  sum += visibility * Light(exp(-depth) * len * (value + curve / 24.0));
+  return taken + folds / max(value, Spectrum(1e-37));
 }
 
 // True if it is such a span: of less than a quarter of an optical depth and e-fold, within one side of each ground, of light that loses nothing

@@ -34,7 +34,9 @@ float steadyLength(Airlight light, float s0, float s1, float s) {
   }
 #endif
 #if HEIGHT
-  len = min(len, 0.05 / max(layersRate(light, s), 1e-30));
+  float t1 = s1 - light.foot, r1 = sqrt(t1 * t1 + light.height2);
+  Followed followed = followedAt(light.heights, s0, s1, s, Layers(max(r0, r1)));
+  len = min(len, steadyLength(light.heights, followed, s, wayOf(light, P, s).whole, shortestWay(light, s0, s1), layersTaken(light, s)));
 #endif
   return len;
 }

@@ -15,12 +15,13 @@ struct Exponents {
   double from, to, ground;
 };
 
-Exponents exponentsOf(const tyndall::Medium& medium, std::size_t layer, const glm::dvec3& from, const glm::dvec3& to) {
+// Of a way of so much from a point on: the difference of two points of it could be lost in the digits of a large world.
+Exponents exponentsOf(const tyndall::Medium& medium, std::size_t layer, const glm::dvec3& from, const glm::dvec3& way) {
   const tyndall::HeightLayer& of = medium.layers[layer];
   if (!std::isfinite(of.scale)) return {0, 0, kDensest};
   const glm::dvec3 up = glm::normalize(toVec3(medium.up));
-  return {(glm::dot(up, from) - of.height) / of.scale, (glm::dot(up, to) - of.height) / of.scale,
-          std::max(kDensest, (of.ground - of.height) / of.scale)};
+  const double begin = (glm::dot(up, from) - of.height) / of.scale;
+  return {begin, begin + glm::dot(up, way) / of.scale, std::max(kDensest, (of.ground - of.height) / of.scale)};
 }
 
 // Mean of exp(-max(e, ground)) over e between two exponents.
@@ -53,12 +54,12 @@ bool isLayered(const tyndall::Medium& medium) {
   return false;
 }
 
-Rgb opticalDepth(const tyndall::Medium& medium, const glm::dvec3& from, const glm::dvec3& to) {
-  const double length = glm::distance(from, to);
+Rgb opticalDepth(const tyndall::Medium& medium, const glm::dvec3& from, const glm::dvec3& way) {
+  const double length = glm::length(way);
   Rgb sum = extinctionOf(medium, -1) * length;
   for (std::size_t i = 0; i < medium.layers.size(); ++i) {
     const Rgb sigma = extinctionOf(medium, static_cast<int>(i));
-    if (sigma != Rgb(0)) sum += sigma * (length * meanDensity(exponentsOf(medium, i, from, to)));
+    if (sigma != Rgb(0)) sum += sigma * (length * meanDensity(exponentsOf(medium, i, from, way)));
   }
   return sum;
 }
@@ -74,20 +75,23 @@ HeightFog::HeightFog(const tyndall::Medium& medium, const tyndall::Light& light,
 }
 
 double HeightFog::exponent(std::size_t layer, const glm::dvec3& x) const {
-  const Exponents e = exponentsOf(medium_, layer, x, x);
+  const Exponents e = exponentsOf(medium_, layer, x, glm::dvec3(0));
   return std::max(e.from, e.ground);
 }
 
-Rgb HeightFog::eyeDepth(double s) const { return opticalDepth(medium_, ray_.origin, ray_.at(s)); }
+Rgb HeightFog::eyeDepth(double s) const { return opticalDepth(medium_, ray_.origin, s * ray_.direction); }
 
 Rgb HeightFog::depth(double s) const {
   const glm::dvec3 x = ray_.at(s);
   Rgb sum = eyeDepth(s);
-  if (light_.kind != tyndall::LightKind::Directional) return sum + opticalDepth(medium_, toVec3(light_.position), x);
+  if (light_.kind != tyndall::LightKind::Directional) {
+    const glm::dvec3 lamp = toVec3(light_.position);
+    return sum + opticalDepth(medium_, lamp, x - lamp);
+  }
   if (!light_.boundary.enabled) return sum;
   const glm::dvec3 travel = glm::normalize(toVec3(light_.direction)), normal = toVec3(light_.boundary.normal);
   const double way = glm::dot(x - toVec3(light_.boundary.point), normal) / glm::dot(travel, normal);
-  if (way > 0) sum += opticalDepth(medium_, x - way * travel, x);
+  if (way > 0) sum += opticalDepth(medium_, x, -way * travel);
   return sum;
 }
 
@@ -128,7 +132,7 @@ double HeightFog::rate(double s) const {
 // Seen are densities from where the ray comes through less than 1000 optical depths down to e^-50 of that of one; of a
 // lamp's or sun's own way a thousand times as long.
 void HeightFog::addBreaks(std::size_t layer) {
-  const Exponents e = exponentsOf(medium_, layer, ray_.origin, ray_.origin + ray_.direction);
+  const Exponents e = exponentsOf(medium_, layer, ray_.origin, ray_.direction);
   const double slope = e.to - e.from;
   if (slope == 0) return;
   breaks_.push_back((e.ground - e.from) / slope);

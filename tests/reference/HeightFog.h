@@ -11,8 +11,8 @@ namespace reference {
 /// True if a coefficient that is not 0 follows a layer.
 bool isLayered(const tyndall::Medium& medium);
 
-/// Optical depth of the straight way between two points, per channel.
-Rgb opticalDepth(const tyndall::Medium& medium, const glm::dvec3& from, const glm::dvec3& to);
+/// Optical depth, per channel, of a straight way from a point on.
+Rgb opticalDepth(const tyndall::Medium& medium, const glm::dvec3& from, const glm::dvec3& way);
 
 class HeightFog {
 public:

@@ -68,7 +68,7 @@ Rgb extinction(const tyndall::Medium& medium) {
 }
 
 Rgb transmittance(const tyndall::Medium& medium, const Ray& ray, double distance) {
-  if (isLayered(medium)) return glm::exp(-opticalDepth(medium, ray.origin, ray.at(std::min(distance, 1e30))));
+  if (isLayered(medium)) return glm::exp(-opticalDepth(medium, ray.origin, std::min(distance, 1e30) * ray.direction));
   const Rgb sigma = extinction(medium);
   Rgb result{1};
   for (int c = 0; c < 3; ++c)
