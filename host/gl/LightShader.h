@@ -119,11 +119,11 @@ vec3 glassTintAt(int view, vec3 coordinates) {
   return mix(bottom, top, weight.y);
 }
 
-/// The share of a light that smoke and strands let through to a point, moved towards the light by some texels of the
-/// curves' map.
-float curveTransmittance(int view, vec3 position, vec3 toLight, float texels, float lightDistance) {
+/// The share of a light that smoke and strands let through to a point, moved so far towards the light, but by no more
+/// than a texel and a half of the curves' map.
+float curveTransmittance(int view, vec3 position, vec3 toLight, float before, float lightDistance) {
 #ifdef TYNDALL_CURVE_NODES
-  position += toLight * (texels * shadowTexel[view] * lightDistance * shadowSize / curveSize);
+  position += toLight * min(before, 1.5 * shadowTexel[view] * lightDistance * shadowSize / curveSize);
   vec2 place = shadowCoordinates(view, position).xy;
   float depth = dot(curveDepth[view].xyz, position) + curveDepth[view].w;
   return tyndallTransmittanceBilinear(curves, place, view, depth);
@@ -133,15 +133,15 @@ float curveTransmittance(int view, vec3 position, vec3 toLight, float texels, fl
 }
 
 /// The share of a light that reaches a point. For the shadow map the point is moved by some of its texels along a
-/// direction, for the curves by some of theirs towards the light.
-vec3 lightThrough(vec3 position, vec3 direction, float texels, vec3 toLight, float curveTexels, float lightDistance) {
+/// direction, for the curves as curveTransmittance() has it.
+vec3 lightThrough(vec3 position, vec3 direction, float texels, vec3 toLight, float before, float lightDistance) {
   if (viewCount == 0) return vec3(1.0);
   int view = viewOf(position);
   if (view < 0) return vec3(litOutsideViews ? 1.0 : 0.0);
   vec3 coordinates = shadowCoordinates(view, position + direction * (texels * shadowTexel[view] * lightDistance));
   float visibility = visibilityAt(view, coordinates);
   if (visibility == 0.0) return vec3(0.0);
-  visibility *= curveTransmittance(view, position, toLight, curveTexels, lightDistance);
+  visibility *= curveTransmittance(view, position, toLight, before, lightDistance);
   return hasGlass ? visibility * glassTintAt(view, coordinates) : vec3(visibility);
 }
 

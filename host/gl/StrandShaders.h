@@ -93,15 +93,17 @@ void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);
   int index = texel.y * lightsAcross + texel.x;
   if (index >= count) discard;
-  vec3 position = texelFetch(points, 3 * index).xyz, tangent = texelFetch(points, 3 * index + 1).xyz;
+  vec4 point = texelFetch(points, 3 * index);
+  vec3 position = point.xyz, tangent = texelFetch(points, 3 * index + 1).xyz;
   vec3 albedo = texelFetch(points, 3 * index + 2).rgb;
   radiance = vec4(0.25 * albedo * skyRadiance, 0.0);
   if (pass == AMBIENT) return;
   vec3 toLight;
   float lightDistance;
   vec3 strength = unblockedIrradiance(position, toLight, lightDistance);
-  // A texel and a half before its own place in the curves, so that a strand does not dim itself.
-  if (strength != vec3(0.0)) strength *= lightThrough(position, toLight, 1.5, toLight, 1.5, lightDistance);
+  // Before its own place in the curves, so that a strand does not dim itself: a strand that fills a texel lies in it as
+  // a slope; of a finer one there is little in it, and more texels would leave out much of what lies before it.
+  if (strength != vec3(0.0)) strength *= lightThrough(position, toLight, 1.5, toLight, 1.5 * point.w, lightDistance);
   vec3 toEye = normalize(eye.xyz - eye.w * position);
   radiance = vec4(min(strength * towardsEye(albedo, tangent, toLight, toEye), maxRadiance), 0.0);
 }

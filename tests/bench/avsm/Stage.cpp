@@ -23,19 +23,18 @@ Defines with(Defines defines, bool ownFilter) {
   return defines;
 }
 
-/// Places and depths of an image's pixels as a camera sees surfaces: smooth, over the whole map and all depths, turned
+/// Of an image's pixels as a camera sees surfaces: smooth, over the whole map and all depths, turned
 /// against the map's axes, with edges where the depth jumps.
-std::vector<float> makePositions() {
-  std::vector<float> all;
-  all.reserve(std::size_t{4} * LookUps::kWidth * LookUps::kHeight);
+std::vector<Position> makePositions() {
+  std::vector<Position> all;
+  all.reserve(std::size_t{LookUps::kWidth} * LookUps::kHeight);
   for (int y = 0; y < LookUps::kHeight; ++y)
     for (int x = 0; x < LookUps::kWidth; ++x) {
       const double u = (x + 0.5) / LookUps::kWidth, v = (y + 0.5) / LookUps::kHeight;
       const double placeX = 0.5 + 0.9 * (u - 0.5) - 0.15 * (v - 0.5), placeY = 0.5 + 0.9 * (v - 0.5) + 0.15 * (u - 0.5);
       const double bands = 5 * u + 2 * v, band = std::floor(bands);
       const double depth = 0.5 + 0.5 * std::sin(2.4 * band + 1.5 * (bands - band) + 2 * v);
-      for (const double value : {placeX, placeY, depth, 0.0})
-        all.push_back(static_cast<float>(value));
+      all.emplace_back(placeX, placeY, depth);
     }
   return all;
 }
@@ -56,14 +55,18 @@ void Stage::capture(tyndall::Avsm& lists) {
 }
 
 void Stage::captureAll(tyndall::Avsm& lists) {
+  avsmbench::captureAll(lists, [&] { capture(lists); });
+}
+
+void captureAll(tyndall::Avsm& lists, const std::function<void()>& draw) {
   std::uint64_t lost = 0;
   for (int frame = 0; frame < 2; ++frame) { // the first one tells how much room is needed
-    capture(lists);
+    draw();
     if (const tyndall::Status status = lists.resolve(); !status) throw host::Error(status.message);
     lost = lists.statistics().lost;
   }
   if (lost > 0) throw host::Error("segments were lost");
-  capture(lists);
+  draw();
 }
 
 std::vector<float> Stage::answers(const Method& method, const std::vector<Query>& queries) const {
@@ -83,13 +86,16 @@ std::vector<float> Stage::answers(const Method& method, const std::vector<Query>
 }
 
 LookUps::LookUps(const Method& method, int mapSize, bool byMethod)
-    : method_(method), mapSize_(mapSize),
+    : LookUps(method, mapSize, byMethod, makePositions(), kWidth, kHeight) {}
+
+LookUps::LookUps(const Method& method, int mapSize, bool byMethod, const std::vector<Position>& positions, int width,
+                 int height)
+    : method_(method), mapSize_(mapSize), width_(width), height_(height),
       program_(with(method.lookUpFiles(), "lookUp.comp"), with(method.lookUpDefines(), byMethod), kMapSize) {
-  const std::vector<float> positions = makePositions();
   gl().ActiveTexture(GL_TEXTURE1);
-  positions_ = host::makeTexture2D(GL_RGBA32F, kWidth, kHeight);
-  gl().TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kWidth, kHeight, GL_RGBA, GL_FLOAT, positions.data());
-  result_ = host::makeTexture2D(GL_R32F, kWidth, kHeight);
+  positions_ = host::makeTexture2D(GL_RGBA32F, width, height);
+  gl().TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGB, GL_FLOAT, positions.data());
+  result_ = host::makeTexture2D(GL_R32F, width, height);
 }
 
 void LookUps::run() const {
@@ -99,9 +105,9 @@ void LookUps::run() const {
   gl().BindTexture(GL_TEXTURE_2D, positions_.name());
   gl().BindImageTexture(1, result_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
   method_.bindForLookUp();
-  ComputeProgram::dispatch(kWidth / 8, kHeight / 8);
+  ComputeProgram::dispatch(static_cast<std::size_t>((width_ + 7) / 8), static_cast<std::size_t>((height_ + 7) / 8));
 }
 
-std::vector<float> LookUps::image() const { return host::readColour(result_.name(), kWidth, kHeight, 1); }
+std::vector<float> LookUps::image() const { return host::readColour(result_.name(), width_, height_, 1); }
 
 } // namespace avsmbench

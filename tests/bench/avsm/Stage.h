@@ -4,6 +4,8 @@
 #include "MapScenes.h"
 #include "Method.h"
 
+#include <functional>
+
 namespace avsmbench {
 
 /// A depth of a texel that a method is asked for.
@@ -12,13 +14,17 @@ struct Query {
   float depth = 0;
 };
 
+/// Draws into lists that have begun. Twice if they had not room for all. Throws host::Error if even then some were
+/// lost.
+void captureAll(tyndall::Avsm& lists, const std::function<void()>& draw);
+
 class Stage {
 public:
   explicit Stage(const MapScene& scene);
 
   /// begin(), and every segment captured.
   void capture(tyndall::Avsm& lists);
-  /// Twice if the lists had not room for all. Throws host::Error if even then some were lost.
+  /// The same by avsmbench::captureAll().
   void captureAll(tyndall::Avsm& lists);
 
   std::vector<float> answers(const Method& method, const std::vector<Query>& queries) const;
@@ -32,11 +38,17 @@ private:
   ComputeProgram capture_;
 };
 
+/// Place in the map, 0 to 1, and depth.
+using Position = glm::vec3;
+
 /// Look-ups for every pixel of an image, bilinear in the map.
 class LookUps {
 public:
   /// byMethod: by the method's own filter, else by the same for all.
   LookUps(const Method& method, int mapSize, bool byMethod);
+  /// Of these positions in place of those of an image of surfaces, row by row.
+  LookUps(const Method& method, int mapSize, bool byMethod, const std::vector<Position>& positions, int width,
+          int height);
 
   void run() const;
   std::vector<float> image() const;
@@ -45,7 +57,7 @@ public:
 
 private:
   const Method& method_;
-  int mapSize_;
+  int mapSize_, width_, height_;
   ComputeProgram program_;
   host::GlTexture positions_, result_;
 };

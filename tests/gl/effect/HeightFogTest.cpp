@@ -166,7 +166,8 @@ TEST_CASE("exact through layers equals map-exact: every light, filter, glass, an
       }
 }
 
-// Steps were as short as the fastest channel asks for, also where nothing was left of it, and ran out in the first texel.
+// Steps were as short as the fastest channel asks for, also where nothing was left of it, and ran out in the first
+// texel.
 TEST_CASE("filtered shadows through layers are exact in every channel, however thick another is") {
   for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot})
     for (const float scattering : {0.5F, 50.0F, 5000.0F}) {
