@@ -42,14 +42,14 @@ void addPiece(Airlight light, float s0, float s1, Weight visibility, inout Light
   Followed followed = followedOf(light.heights, Layers(s0), Layers(s1), Layers(max(r0, r1)));
   Way way = wayOf(light, P, s0);
   Spectrum least = way.whole;
-  float s = s0;
+  float s = s0, most = longPanel; // no panel is more than four times as long as the one before: heightSun.glsl
   bool more = s1 > s0;
   for (int i = 0; i < kMostPanels && more; ++i) {
     Spectrum alive = aliveAt(way, least);
     if (greatestOf(alive) == 0.0) break;
     float N = light.height2 / P, t = 0.5 * (P - N), r = 0.5 * (P + N), smoothStep = smoothLength(light, s, r), step = min(stepFrom(followed, s), smoothStep);
     float left = abs(t) < s ? t1 - t : s1 - s; // by the smaller, which is known better: next to the lamp, or to the eye
-    float toEnd = panelLength(t, r, t1, r1, max(left, 0.0), light.height2), len = min(toEnd, longPanel), ahead = t + step;
+    float toEnd = panelLength(t, r, t1, r1, max(left, 0.0), light.height2), len = min(toEnd, most), ahead = t + step;
     if (step < 1e6 * r) len = min(len, panelLength(t, r, ahead, sqrt(ahead * ahead + light.height2), step, light.height2));
     Way end = wayOf(light, P * exp(len), s + stepAlong(light, P, len));
     float change = changeOf(alive, least, way, end);
@@ -78,6 +78,7 @@ void addPiece(Airlight light, float s0, float s1, Weight visibility, inout Light
     }
     sum += (halfLength * visibility) * Light(panel);
     more = len < toEnd;
+    most = min(longPanel, 4.0 * len);
     s = sm + stepAlong(light, Pm, halfLength);
     P = Pm * middle;
     least = min(least, end.whole);

@@ -93,9 +93,10 @@ Spectrum integrandAt(Airlight light, float s) {
   return phaseOf(light.phases, densities(light.heights.begin + s * light.heights.slope)) * exp(-wayOf(light, s).whole);
 }
 
-// How long the panel from s on may be: tried from the longest on. What is dark before a bright end is left out: s and `way` go on behind it.
-float longestPanel(Airlight light, Followed followed, Spectrum alive, Spectrum least, float s1, inout float s, inout Way way, inout Way end) {
-  float len = min(stepFrom(followed, s), s1 - s), middle = 0.0; // middle: half of a length whose end is known
+// How long the panel from s on may be: tried from the longest on, no more than `most`. What is dark before a bright end is left out: s and
+// `way` go on behind it.
+float longestPanel(Airlight light, Followed followed, Spectrum alive, Spectrum least, float s1, float most, inout float s, inout Way way, inout Way end) {
+  float len = min(min(stepFrom(followed, s), s1 - s), most), middle = 0.0; // middle: half of a length whose end is known
   Way whole = way;
   for (int k = 0; k < 12; ++k) {
     end = wayOf(light, s + len);
@@ -119,12 +120,15 @@ void addPiece(Airlight light, float s0, float s1, Weight visibility, inout Light
   Followed followed = followedOf(light.heights, Layers(s0), Layers(s1), lightLengths(light, s0, s1));
   Way way = wayOf(light, s0);
   Spectrum least = way.whole;
-  float s = s0;
+  float s = s0, most = 1e30;
   for (int i = 0; i < kMostPanels && s < s1; ++i) {
     Spectrum alive = aliveAt(way, least);
     if (greatestOf(alive) == 0.0) break;
     Way end = way;
-    float len = longestPanel(light, followed, alive, least, s1, s, way, end);
+    // What light comes through may grow by many e-folds over the longest panel, and its share is then far too short: the next ones grow from
+    // there. Never so short that s stays where it is.
+    float len = max(longestPanel(light, followed, alive, least, s1, most, s, way, end), min(4e-7 * s, s1 - s));
+    most = 4.0 * len;
     float change = changeOf(alive, least, way, end);
     float halfLength = 0.5 * len, middle = s + halfLength;
     bool isShort = change + foldsOver(followed, s, len) < 0.3;
