@@ -89,11 +89,15 @@ Airlight::Airlight(const tyndall::Medium& medium, const tyndall::Light& light, c
       colour_(toRgb(light.colour) * double(light.scatteringScale)), extinction_(extinction(medium)) {
   maxExtinction_ = std::max({extinction_.r, extinction_.g, extinction_.b});
   grey_ = extinction_.r == extinction_.g && extinction_.g == extinction_.b;
-  // A channel without extinction scatters nothing, so the thinnest of the others says how far the ray matters.
+  // The thinnest channel in which anything scatters says how far the ray matters: of fog before the eye, whose scattering
+  // takes nothing (MapExact.cpp), without an end.
+  Rgb scattering(0);
+  for (const tyndall::Constituent& constituent : constituents_)
+    scattering += toRgb(constituent.scattering);
   double thinnest = kInfinity;
   for (int c = 0; c < 3; ++c)
-    if (extinction_[c] > 0) thinnest = std::min(thinnest, extinction_[c]);
-  support_ = {0, std::isinf(thinnest) ? 1e30 : kUnderflow / thinnest};
+    if (scattering[c] > 0) thinnest = std::min(thinnest, std::max(extinction_[c], 0.0));
+  support_ = {0, std::isinf(thinnest) ? 0 : std::min(1e30, kUnderflow / thinnest)};
   if (isLayered(medium)) {
     layers_.emplace(medium, light, ray);
     support_ = {0, layers_->end()};
