@@ -98,7 +98,7 @@ float evenInFog(float len) { return eyePath.end > eyePath.begin ? min(len, (eyeP
 
 #endif
 
-const float kEyePieces = 256.0; // of what dims, at most: where light changes fast
+const float kEyePieces = LIGHT_KIND == 0 ? 256.0 : 64.0; // of what dims, at most: where light changes fast, as it does next to lamps
 
 // How far from s on the transmittance changes by little: for what takes light in pieces of its own.
 float eyeSteadyLength(float s) {
