@@ -89,8 +89,8 @@ Airlight::Airlight(const tyndall::Medium& medium, const tyndall::Light& light, c
       colour_(toRgb(light.colour) * double(light.scatteringScale)), extinction_(extinction(medium)) {
   maxExtinction_ = std::max({extinction_.r, extinction_.g, extinction_.b});
   grey_ = extinction_.r == extinction_.g && extinction_.g == extinction_.b;
-  // The thinnest channel in which anything scatters says how far the ray matters: of fog before the eye, whose scattering
-  // takes nothing (MapExact.cpp), without an end.
+  // The thinnest channel in which anything scatters says how far the ray matters: of fog before the eye, whose
+  // scattering takes nothing (MapExact.cpp), without an end.
   Rgb scattering(0);
   for (const tyndall::Constituent& constituent : constituents_)
     scattering += toRgb(constituent.scattering);
