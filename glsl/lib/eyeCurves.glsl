@@ -115,7 +115,7 @@ void addSeen(Airlight light, float s0, float s1, Visibility mean, Visibility mom
     if (dims) {
       float steady = from + max(steadyLength(light, s0, s1, from), least);
 #if FOG && defined(FOG_STEPS)
-      steady = min(steady, from + (eyePath.end - eyePath.begin) / FOG_STEPS);
+      steady = min(steady, from + (eyePath.end - eyePath.begin) / min(FOG_STEPS, kEyePieces));
 #endif
       to = min(steady > from ? steady : s1, min(eyePath.end, s1));
     }

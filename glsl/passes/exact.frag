@@ -3,7 +3,7 @@
 // lights) and transmittance (lib/outputs.glsl).
 // Physics: DESIGN 1; closed form of Yusov 2013.
 #define FADE_STEPS 16
-#define FOG_STEPS (LIGHT_KIND != 0 || (FILTER_BILINEAR == 1 && GLASS == 1) ? 64.0 : 128.0) // llvmpipe ends all loops after 65,535 turns
+#define FOG_STEPS (FILTER_BILINEAR == 1 && GLASS == 1 ? 64.0 : 128.0) // llvmpipe ends all loops after 65,535 turns
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/phase.glsl"
