@@ -98,7 +98,7 @@ float evenInFog(float len) { return eyePath.end > eyePath.begin ? min(len, (eyeP
 
 #endif
 
-const float kEyePieces = LIGHT_KIND == 0 ? 256.0 : 64.0; // of what dims, at most: where light changes fast, as it does next to lamps
+const float kEyePieces = 256.0; // of what dims, at most: where light changes fast
 
 // How far from s on the transmittance changes by little: for what takes light in pieces of its own.
 float eyeSteadyLength(float s) {
@@ -115,7 +115,7 @@ void addSeen(Airlight light, float s0, float s1, Visibility mean, Visibility mom
     if (dims) {
       float steady = from + max(steadyLength(light, s0, s1, from), least);
 #if FOG && defined(FOG_STEPS)
-      steady = min(steady, from + (eyePath.end - eyePath.begin) / min(FOG_STEPS, kEyePieces));
+      steady = min(steady, from + (eyePath.end - eyePath.begin) / FOG_STEPS);
 #endif
       to = min(steady > from ? steady : s1, min(eyePath.end, s1));
     }
