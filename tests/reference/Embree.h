@@ -7,7 +7,33 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <glm/glm.hpp>
+#include <memory>
+#include <type_traits>
+
 namespace reference {
+
+struct EmbreeRelease {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using DevicePointer = std::unique_ptr<std::remove_pointer_t<RTCDevice>, EmbreeRelease>;
+using ScenePointer = std::unique_ptr<std::remove_pointer_t<RTCScene>, EmbreeRelease>;
+
+/// From Embree's origin.
+inline RTCRay embreeRay(const glm::vec3& origin, const glm::vec3& direction, double nearest, double farthest) {
+  RTCRay result{};
+  result.org_x = origin.x;
+  result.org_y = origin.y;
+  result.org_z = origin.z;
+  result.dir_x = direction.x;
+  result.dir_y = direction.y;
+  result.dir_z = direction.z;
+  result.tnear = static_cast<float>(nearest);
+  result.tfar = static_cast<float>(farthest);
+  result.mask = 0xFFFFFFFFU;
+  return result;
+}
 
 inline void intersect(RTCScene scene, RTCRayHit& hit) {
 #if RTC_VERSION_MAJOR >= 4

@@ -116,18 +116,7 @@ void SceneExact::build(Part& part) const {
 }
 
 RTCRay SceneExact::embreeRay(const Ray& ray, double nearest, double farthest) const {
-  const glm::vec3 origin(ray.origin - centre_), direction(ray.direction);
-  RTCRay result{};
-  result.org_x = origin.x;
-  result.org_y = origin.y;
-  result.org_z = origin.z;
-  result.dir_x = direction.x;
-  result.dir_y = direction.y;
-  result.dir_z = direction.z;
-  result.tnear = static_cast<float>(nearest);
-  result.tfar = static_cast<float>(farthest);
-  result.mask = 0xFFFFFFFFU;
-  return result;
+  return reference::embreeRay(ray.origin - centre_, ray.direction, nearest, farthest);
 }
 
 double SceneExact::firstHit(const Ray& ray, double nearest, double farthest) const {

@@ -65,15 +65,6 @@ public:
   Rgb visibilityAt(const glm::dvec3& point, const tyndall::Light& light) const;
 
 private:
-  struct DeviceRelease {
-    void operator()(RTCDeviceTy* device) const { rtcReleaseDevice(device); }
-  };
-  struct SceneRelease {
-    void operator()(RTCSceneTy* scene) const { rtcReleaseScene(scene); }
-  };
-  using DevicePointer = std::unique_ptr<RTCDeviceTy, DeviceRelease>;
-  using ScenePointer = std::unique_ptr<RTCSceneTy, SceneRelease>;
-
   /// One kind of triangles for both questions: rays (Embree) and planar regions.
   struct Part {
     std::vector<TriangleBvh::Corners> corners;

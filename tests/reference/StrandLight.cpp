@@ -76,17 +76,8 @@ StrandLight::StrandLight(const host::Strands& strands) : device_(rtcNewDevice(nu
 }
 
 double StrandLight::transmittance(const glm::dvec3& place, const glm::dvec3& lamp, int own) const {
-  const glm::dvec3 towards = glm::normalize(lamp - place);
-  const glm::vec3 origin(place - centre_), direction(towards);
   RTCRayHit hit{};
-  hit.ray.org_x = origin.x;
-  hit.ray.org_y = origin.y;
-  hit.ray.org_z = origin.z;
-  hit.ray.dir_x = direction.x;
-  hit.ray.dir_y = direction.y;
-  hit.ray.dir_z = direction.z;
-  hit.ray.tfar = static_cast<float>(glm::length(lamp - place));
-  hit.ray.mask = 0xFFFFFFFFU;
+  hit.ray = embreeRay(place - centre_, glm::normalize(lamp - place), 0, glm::length(lamp - place));
   hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   found.clear();
   intersect(scene_.get(), hit);

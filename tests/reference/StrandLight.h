@@ -4,9 +4,8 @@
 #include "Embree.h"
 
 #include <glm/glm.hpp>
-#include <memory>
 #include <scene/Strands.h>
-#include <type_traits>
+#include <vector>
 
 namespace reference {
 
@@ -28,15 +27,11 @@ private:
     double radius = 0, passed = 1;
     bool continues = false; ///< the strand of the segment before
   };
-  struct Release {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-  };
 
   std::vector<Segment> segments_;
   glm::dvec3 centre_{0}; ///< Embree's origin
-  std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release> device_;
-  std::unique_ptr<std::remove_pointer_t<RTCScene>, Release> scene_;
+  DevicePointer device_;
+  ScenePointer scene_;
 };
 
 } // namespace reference

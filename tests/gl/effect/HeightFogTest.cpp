@@ -1,5 +1,4 @@
 // Media that thin out with height (Medium::layers): unshadowed light against adaptive quadrature, limits, and rules.
-#include "AgainstReference.h"
 #include "AirlightSweep.h"
 #include "FrameCases.h"
 #include "ShaftRig.h"
@@ -164,30 +163,6 @@ TEST_CASE("exact through layers equals map-exact: every light, filter, glass, an
           CHECK(tests::difference(got.transmittance, wanted.transmittance) <= 1e-5);
         }
       }
-}
-
-// Steps were as short as the fastest channel asks for, also where nothing was left of it, and ran out in the first
-// texel.
-TEST_CASE("filtered shadows through layers are exact in every channel, however thick another is") {
-  for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot})
-    for (const float scattering : {0.5F, 50.0F, 5000.0F}) {
-      tests::SceneRig rig;
-      const Light& light = rig.addLight(kind);
-      Medium& medium = rig.frame.medium;
-      medium.constituents = {{{scattering, 0.3F, 0.01F}, Phase::HenyeyGreenstein, 0.6F},
-                             {{0.01F, 0.02F, 0.03F}, Phase::Rayleigh}};
-      medium.constituents[0].layer = 0;
-      medium.layers = {{0.5, 3}};
-      rig.frame.settings.shadowFilter = ShadowFilter::Bilinear;
-      reference::ShadowImage map;
-      map.width = map.height = 3;
-      map.layers = static_cast<int>(light.shadow.views.size());
-      map.depth = tests::casterDepths(tests::Casters::Blocks, kind, 3, map.layers);
-      rig.setShadow(0, map);
-      rig.render();
-      CAPTURE(static_cast<int>(kind), scattering);
-      tests::checkAgainstReference(rig, 2e-3);
-    }
 }
 
 TEST_CASE(
