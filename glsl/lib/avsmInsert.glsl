@@ -32,7 +32,7 @@ void tyndallInsertSegment(vec3 segment) {
   }
   tyndallUsed += 2;
   for (int i = 0; i < 2; ++i)
-    if (tyndallUsed > TYNDALL_CURVE_NODES) {
+    if (tyndallUsed > TYNDALL_CURVE_ROOM - 2) {
       tyndallRemoveCheapest();
       tyndallCurve[TYNDALL_CURVE_ROOM - 1].x = kTyndallUnused;
     }

@@ -35,6 +35,7 @@ namespace tyndall {
 
 /// How a curve is made of a texel's captured segments.
 enum class CurveReduction {
+  Fitted,     ///< insertion in the order of capture into eight nodes more, of which those stay that count most, refitted
   WholeCurve, ///< of all ends of segments those stay that count most, refitted: the most exact, whatever the order
   Sorted,     ///< the paper's insertion, in the order of depth: the same curve whatever the order of drawing
   InOrder,    ///< the paper's insertion, the segment captured last first: no sort, may flicker a little
@@ -47,7 +48,7 @@ struct AvsmConfig {
   int layers = 1;     ///< one for each shadow view of the light, 1 to 6
   int nodes = 8;      ///< of a curve: 4, 8, 12 or 16
   bool packed = true; ///< 16 bits for a depth and for a transmittance, else 32
-  CurveReduction reduction = CurveReduction::WholeCurve;
+  CurveReduction reduction = CurveReduction::Fitted;
   /// Bytes that the lists may grow to, as far as frames need them; what is over is lost, in each list the deepest
   /// segments. At least one segment for each texel fits whatever this says.
   std::uint64_t mostListBytes = std::uint64_t{512} << 20;

@@ -22,8 +22,9 @@
 //
 //   the engine's shaders, avsmCapture.glsl --> lists of segments
 //   lists --> [avsmSort] --> lists in the order of entries --> [avsmSort, exits] --> and of exits
+//   Fitted, InOrder:  lists --> [avsmInsert] --> curves
+//   Sorted:           lists in the order of entries --> [avsmInsert] --> curves
 //   WholeCurve:       lists in both orders --> [avsmReduce] --> curves
-//   Sorted, InOrder:  lists --> [avsmInsert] --> curves
 //
 // Or as segments come:
 //
@@ -47,15 +48,15 @@ struct Pass {
 
 // From lists to curves; to reduce whole curves in the order of exits as well.
 std::vector<Pass> passesOf(const AvsmConfig& config) {
-  const gl::Definitions curves = avsm::curveDefinitions(config.nodes, config.packed);
   std::vector<Pass> passes;
-  if (config.reduction != CurveReduction::InOrder)
+  if (config.reduction == CurveReduction::WholeCurve || config.reduction == CurveReduction::Sorted)
     passes.push_back({"sort entries", "passes/avsmSort.comp", {{"EXITS", 0}}});
   if (config.reduction == CurveReduction::WholeCurve) {
     passes.push_back({"sort exits", "passes/avsmSort.comp", {{"EXITS", 1}}});
-    passes.push_back({"reduce", "passes/avsmReduce.comp", curves});
+    passes.push_back({"reduce", "passes/avsmReduce.comp", avsm::curveDefinitions(config.nodes, config.packed)});
   } else {
-    passes.push_back({"insert", "passes/avsmInsert.comp", curves});
+    const bool spare = config.reduction == CurveReduction::Fitted;
+    passes.push_back({"insert", "passes/avsmInsert.comp", avsm::insertDefinitions(config.nodes, config.packed, spare)});
   }
   return passes;
 }

@@ -25,7 +25,7 @@ Status checkConfig(const AvsmConfig& config) {
     return invalid("layers", std::to_string(config.layers), "must be 1 to 6");
   if (config.nodes < 4 || config.nodes > kMaxNodes || config.nodes % 4 != 0)
     return invalid("nodes", std::to_string(config.nodes), "must be 4, 8, 12 or 16");
-  if (config.reduction < CurveReduction::WholeCurve || config.reduction > CurveReduction::InOrder)
+  if (config.reduction < CurveReduction::Fitted || config.reduction > CurveReduction::InOrder)
     return invalid("reduction", std::to_string(static_cast<int>(config.reduction)), "must be one of the enumerators");
   if (config.state < StateMode::Restore || config.state > StateMode::Leave)
     return invalid("state", std::to_string(static_cast<int>(config.state)), "must be one of the enumerators");

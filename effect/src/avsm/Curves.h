@@ -16,6 +16,15 @@ inline gl::Definitions curveDefinitions(int nodes, bool packed) {
 /// Layers of the curves' texture.
 inline int curveLayersOf(const AvsmConfig& config) { return config.layers * config.nodes / (config.packed ? 4 : 2); }
 
+inline constexpr int kSpareNodes = 8; ///< of CurveReduction::Fitted, until all segments are in
+
+/// Of passes/avsmInsert.comp.
+inline gl::Definitions insertDefinitions(int nodes, bool packed, bool spare) {
+  gl::Definitions definitions = curveDefinitions(nodes, packed);
+  definitions.emplace_back("SPARE", spare ? kSpareNodes : 0);
+  return definitions;
+}
+
 /// Of passes/avsmVolumes.comp, which captures, or inserts into curves.
 inline gl::Definitions volumeDefinitions(int nodes, bool packed, bool streamed) {
   gl::Definitions definitions = streamed ? curveDefinitions(nodes, packed) : gl::Definitions{};

@@ -12,10 +12,14 @@ std::vector<gl::Variant> allVariants() {
   for (const int finest : {0, 1})
     all.push_back({"passes/avsmRanges.comp", {{"FINEST", finest}}, {}});
   all.push_back({"passes/avsmVolumes.comp", volumeDefinitions(0, false, false), {}});
-  for (const char* pass : {"passes/avsmInsert.comp", "passes/avsmParticles.comp", "passes/avsmReduce.comp"})
+  for (const char* pass : {"passes/avsmParticles.comp", "passes/avsmReduce.comp"})
     for (int nodes = 4; nodes <= kMaxNodes; nodes += 4)
       for (const bool packed : {false, true})
         all.push_back({pass, curveDefinitions(nodes, packed), {}});
+  for (int nodes = 4; nodes <= kMaxNodes; nodes += 4)
+    for (const bool packed : {false, true})
+      for (const bool spare : {false, true})
+        all.push_back({"passes/avsmInsert.comp", insertDefinitions(nodes, packed, spare), {}});
   for (int nodes = 4; nodes <= kMaxNodes; nodes += 4)
     for (const bool packed : {false, true})
       all.push_back({"passes/avsmVolumes.comp", volumeDefinitions(nodes, packed, true), {}});

@@ -13,8 +13,8 @@ using tyndall::CurveReduction;
 std::vector<MethodEntry> makeEntries() {
   std::vector<MethodEntry> all;
   for (const auto& [text, reduction] :
-       {std::pair("whole", CurveReduction::WholeCurve), std::pair("sorted", CurveReduction::Sorted),
-        std::pair("in order", CurveReduction::InOrder)})
+       {std::pair("fitted", CurveReduction::Fitted), std::pair("whole", CurveReduction::WholeCurve),
+        std::pair("sorted", CurveReduction::Sorted), std::pair("in order", CurveReduction::InOrder)})
     for (const int nodes : {4, 8, 12, 16})
       for (const bool packed : {false, true})
         all.push_back({std::string("avsm ") + text + " " + std::to_string(nodes) + (packed ? " packed" : ""),

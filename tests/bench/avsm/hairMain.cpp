@@ -19,8 +19,9 @@ struct Options {
   std::string scene;
   std::vector<int> sizes = {64, 128, 256, 512, 1024};
   std::vector<double> footprints = {0, 0.8, 3}; ///< millimetres of the scene
-  std::vector<std::string> methods = {"lists",           "avsm whole 4", "avsm whole 8", "avsm whole 16",
-                                      "avsm in order 8", "deep 0.01",    "opacity 32",   "fourier 16"};
+  std::vector<std::string> methods = {"lists",          "avsm fitted 4", "avsm fitted 8",
+                                      "avsm fitted 16", "avsm whole 8",  "avsm in order 8",
+                                      "deep 0.01",      "opacity 32",    "fourier 16"};
   int receivers = 4096;
   std::string csv;
 };

@@ -234,7 +234,7 @@ void run(const Options& options) {
     Bench bench(scene, options, context->loader());
     if (options.passes)
       for (const tyndall::CurveReduction reduction :
-           {tyndall::CurveReduction::WholeCurve, tyndall::CurveReduction::InOrder})
+           {tyndall::CurveReduction::Fitted, tyndall::CurveReduction::WholeCurve})
         bench.printPasses(8, true, reduction);
     for (const MethodEntry& entry : methods) {
       rows.push_back(bench.measure(entry));

@@ -13,7 +13,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-ROWS = [("whole curve", ("avsm whole 4", "avsm whole 8", "avsm whole 12")),
+ROWS = [("fitted insertion", ("avsm fitted 4", "avsm fitted 8", "avsm fitted 12")),
         ("insertion", ("avsm sorted 8", "avsm in order 8", "avsm sorted 12")),
         ("rivals", ("deep 0.01", "opacity 32", "fourier 16", "moments 6"))]
 STEPS_WANTED = 1e-3  # of depth: what a zoom shows at least

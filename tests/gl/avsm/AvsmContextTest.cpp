@@ -109,7 +109,7 @@ TEST_CASE("avsm: every field of a config that breaks its rule is named") {
     check("layers", std::to_string(layers), "must be 1 to 6", [&](AvsmConfig& c) { c.layers = layers; });
   for (const int nodes : {-4, 0, 5, 6, 20})
     check("nodes", std::to_string(nodes), "must be 4, 8, 12 or 16", [&](AvsmConfig& c) { c.nodes = nodes; });
-  for (const int reduction : {-1, 3})
+  for (const int reduction : {-1, 4})
     check("reduction", std::to_string(reduction), "enumerators",
           [&](AvsmConfig& c) { c.reduction = static_cast<CurveReduction>(reduction); });
   for (const int state : {-1, 2})
@@ -374,7 +374,7 @@ TEST_CASE("avsm: with StateMode::Leave storage bindings are left empty, and the 
 TEST_CASE("avsm: a poisoned GL state is on return what it was on entry") {
   if (!tests::hasAvsm()) return;
   const GlLoader loader = tests::testContext().loader();
-  for (const CurveReduction reduction : {CurveReduction::WholeCurve, CurveReduction::InOrder})
+  for (const CurveReduction reduction : {CurveReduction::Fitted, CurveReduction::WholeCurve})
     for (const PassTiming timing : {PassTiming::Off, PassTiming::TimerQuery}) {
       AvsmConfig config = smallConfig(loader);
       config.reduction = reduction;

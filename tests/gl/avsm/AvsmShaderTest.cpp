@@ -39,7 +39,8 @@ void checkCompile(const std::vector<tests::PublicShader>& shaders) {
 
 TEST_CASE("avsm: every variant of the passes builds", "[slow]") {
   if (!tests::hasAvsm()) return;
-  for (const CurveReduction reduction : {CurveReduction::WholeCurve, CurveReduction::Sorted, CurveReduction::InOrder})
+  for (const CurveReduction reduction :
+       {CurveReduction::Fitted, CurveReduction::WholeCurve, CurveReduction::Sorted, CurveReduction::InOrder})
     for (const int nodes : {4, 8, 12, 16})
       for (const bool packed : {false, true}) {
         AvsmConfig config;

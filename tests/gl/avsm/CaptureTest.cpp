@@ -18,7 +18,8 @@ namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
-constexpr CurveReduction kReductions[] = {CurveReduction::WholeCurve, CurveReduction::Sorted, CurveReduction::InOrder};
+constexpr CurveReduction kReductions[] = {CurveReduction::Fitted, CurveReduction::WholeCurve, CurveReduction::Sorted,
+                                          CurveReduction::InOrder};
 
 // A segment, and what it lets through up to 0, 0.5 and 1.
 struct Odd {

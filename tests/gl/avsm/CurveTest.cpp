@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 
 using namespace tyndall;
@@ -14,7 +15,8 @@ using tests::Curve;
 
 namespace {
 
-constexpr CurveReduction kReductions[] = {CurveReduction::WholeCurve, CurveReduction::Sorted, CurveReduction::InOrder};
+constexpr CurveReduction kReductions[] = {CurveReduction::Fitted, CurveReduction::WholeCurve, CurveReduction::Sorted,
+                                          CurveReduction::InOrder};
 
 // Columns of smoke: puffs of some thickness, thin each, in clusters along the ray.
 std::vector<reference::Segment> smoke(int seed, double low = 0, double high = 1) {
@@ -129,6 +131,57 @@ TEST_CASE("avsm: curves fall, stay in [0, 1], keep both ends and get closer with
         last = sum;
       }
     }
+}
+
+TEST_CASE("avsm: fitted curves are nearly as near as whole ones, and nearer than the paper's insertion") {
+  if (!tests::hasAvsm()) return;
+  constexpr int kTexels = 8;
+  for (const int nodes : {4, 8, 12, 16}) {
+    std::map<CurveReduction, double> errors;
+    for (const CurveReduction reduction :
+         {CurveReduction::Fitted, CurveReduction::WholeCurve, CurveReduction::InOrder}) {
+      AvsmRig rig(configOf(reduction, kTexels, nodes));
+      std::vector<Captured> all;
+      for (int i = 0; i < kTexels * kTexels; ++i)
+        for (const Captured& s : atTexel(smoke(i), {i % kTexels, i / kTexels, 0}))
+          all.push_back(s);
+      rig.capture(all); // the memory grows
+      rig.capture(all);
+      for (int i = 0; i < kTexels * kTexels; ++i)
+        errors[reduction] += tests::curveError(rig.curve({i % kTexels, i / kTexels, 0}), smoke(i));
+    }
+    CAPTURE(nodes, errors[CurveReduction::WholeCurve], errors[CurveReduction::InOrder]);
+    CHECK(errors[CurveReduction::Fitted] < 1.3 * errors[CurveReduction::WholeCurve]);
+    CHECK(errors[CurveReduction::Fitted] < 0.8 * errors[CurveReduction::InOrder]);
+  }
+}
+
+TEST_CASE("avsm: a fitted curve with room for all ends holds them, in any order") {
+  if (!tests::hasAvsm()) return;
+  constexpr double kBend = 1e-3; // of an even segment's exponential, which another one's end finds as a line
+  // Two ends each: up to four segments are kept as they are; eight are all there when the fitting begins.
+  for (const int count : {1, 2, 4, 8}) {
+    std::vector<reference::Segment> segments = smoke(3);
+    std::mt19937 random(7);
+    std::shuffle(segments.begin(), segments.end(), random);
+    segments.resize(static_cast<std::size_t>(count));
+    AvsmRig rig(configOf(CurveReduction::Fitted, 4));
+    std::vector<Captured> all = atTexel(segments, {0, 0, 0});
+    std::shuffle(segments.begin(), segments.end(), random);
+    for (const Captured& s : atTexel(segments, {1, 0, 0}))
+      all.push_back(s);
+    rig.capture(all);
+    const Curve curve = rig.curve({0, 0, 0}), other = rig.curve({1, 0, 0});
+    CAPTURE(count);
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+      CHECK(other[i].x == Approx(curve[i].x).margin(1e-6));
+      CHECK(other[i].y == Approx(curve[i].y).margin(kBend));
+    }
+    if (count > 4) continue;
+    for (const reference::Segment& s : segments)
+      for (const double depth : {s.entry, s.exit})
+        CHECK(tests::curveAt(curve, depth) == Approx(reference::transmittanceAt(segments, depth)).margin(kBend));
+  }
 }
 
 TEST_CASE("avsm: as many segments in one texel as a list may hold, in any order") {
