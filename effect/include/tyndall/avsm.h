@@ -35,7 +35,8 @@ namespace tyndall {
 
 /// How a curve is made of a texel's captured segments.
 enum class CurveReduction {
-  Fitted,     ///< insertion in the order of capture into eight nodes more, of which those stay that count most, refitted
+  Fitted, ///< insertion in the order of capture into eight nodes more, of which those stay that count most, refitted;
+          ///< another order moves it by about half its error
   WholeCurve, ///< of all ends of segments those stay that count most, refitted: the most exact, whatever the order
   Sorted,     ///< the paper's insertion, in the order of depth: the same curve whatever the order of drawing
   InOrder,    ///< the paper's insertion, the segment captured last first: no sort, may flicker a little

@@ -156,6 +156,39 @@ TEST_CASE("avsm: fitted curves are nearly as near as whole ones, and nearer than
   }
 }
 
+TEST_CASE("avsm: the order of drawing moves a fitted curve by less than it is off") {
+  if (!tests::hasAvsm()) return;
+  constexpr int kTexels = 8, kDepths = 256;
+  std::map<CurveReduction, double> moved, errors;
+  for (const CurveReduction reduction : {CurveReduction::Fitted, CurveReduction::InOrder}) {
+    AvsmRig rig(configOf(reduction, 2 * kTexels));
+    std::vector<Captured> all;
+    std::mt19937 random(11);
+    for (int i = 0; i < kTexels * kTexels; ++i)
+      for (int order = 0; order < 2; ++order) {
+        std::vector<reference::Segment> segments = smoke(i);
+        std::shuffle(segments.begin(), segments.end(), random);
+        for (const Captured& s : atTexel(segments, {i % kTexels, i / kTexels + order * kTexels, 0}))
+          all.push_back(s);
+      }
+    rig.capture(all); // the memory grows
+    rig.capture(all);
+    REQUIRE(rig.avsm().statistics().lost == 0);
+    for (int i = 0; i < kTexels * kTexels; ++i) {
+      const Curve one = rig.curve({i % kTexels, i / kTexels, 0}),
+                  other = rig.curve({i % kTexels, i / kTexels + kTexels, 0});
+      for (int k = 0; k < kDepths; ++k) {
+        const double depth = (k + 0.5) / kDepths, truth = reference::transmittanceAt(smoke(i), depth);
+        moved[reduction] += std::abs(tests::curveAt(one, depth) - tests::curveAt(other, depth));
+        errors[reduction] += std::abs(tests::curveAt(one, depth) - truth);
+      }
+    }
+  }
+  CAPTURE(errors[CurveReduction::Fitted], errors[CurveReduction::InOrder], moved[CurveReduction::InOrder]);
+  CHECK(moved[CurveReduction::Fitted] < 0.7 * errors[CurveReduction::Fitted]);
+  CHECK(moved[CurveReduction::Fitted] < 0.6 * moved[CurveReduction::InOrder]);
+}
+
 TEST_CASE("avsm: a fitted curve with room for all ends holds them, in any order") {
   if (!tests::hasAvsm()) return;
   constexpr double kBend = 1e-3; // of an even segment's exponential, which another one's end finds as a line
