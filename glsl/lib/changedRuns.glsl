@@ -1,7 +1,35 @@
 // Runs of changed strips of kWidth lines, of up to kRun strips: one rectangle is drawn for each, since the pixels along the diagonal
 // between a rectangle's two triangles are shaded twice. Needs kWidth and bool isDrawn(strip).
 
+uniform sampler2D changedSlices;
+bool isDrawn(int strip);
+
 const int kRun = 8;
+
+// What of a row is drawn, as shares of its length, from and to: nothing, all, or, by a table that says so of each view, the parts of 256
+// texels that an object can have changed.
+vec2 partsOf(int line) {
+  ivec2 at = ivec2(line % sliceCount, 0);
+  if (textureSize(changedSlices, 0).y == 1) return vec2(0.0, texelFetch(changedSlices, at, 0).b);
+  at.y = 1 + line / sliceCount;
+  return texelFetch(changedSlices, at, 0).rg * (256.0 / float(rowLength));
+}
+
+// Of both, where neither may be empty.
+vec2 unionOf(vec2 a, vec2 b) { return a.x >= a.y ? b : b.x >= b.y ? a : vec2(min(a.x, b.x), max(a.y, b.y)); }
+
+// Of a strip's rows: slices change by eight, but rows of two views may share a strip.
+vec2 partsOfStrip(int strip) {
+  int last = drawnViews * sliceCount - 1;
+  return unionOf(partsOf(min(kWidth * strip, last)), partsOf(min(kWidth * (strip + 1) - 1, last)));
+}
+
+// Of a run's.
+vec2 partsOfRun(ivec2 run) {
+  vec2 parts = vec2(0.0);
+  for (int strip = run.x; strip < run.y; ++strip) parts = unionOf(parts, partsOfStrip(strip));
+  return min(parts, vec2(1.0));
+}
 
 // The run that begins at a strip, from and to; nothing if none does.
 ivec2 runFrom(int strip, int strips) {

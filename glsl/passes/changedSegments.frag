@@ -13,9 +13,10 @@ uniform sampler2D changedEnds;
 uniform sampler2D changedParts;
 layout(location = 0) out vec4 outChanged;
 
+// The last frame's are there only where they may be others.
 float endAt(int slice, int i) {
   float end = texelFetch(sampleEnds, ivec2(slice, i), 0).r;
-  if (comparesEnds != 0) end = max(end, texelFetch(lastSampleEnds, ivec2(slice, i), 0).r);
+  if (comparesEnds != 0 && texelFetch(changedEnds, ivec2(slice, i >> 4), 0).r > 0.0) end = max(end, texelFetch(lastSampleEnds, ivec2(slice, i), 0).r);
   return end;
 }
 

@@ -20,22 +20,19 @@ float fragmentsOf(int slice) { return texelFetch(extraOffsets, ivec2(slice, samp
 float room() { return float(samplesPerSlice / 2); }
 #endif
 
-uniform sampler2D changedSlices;
 flat out int isPart; // 1: only what has changed is drawn
 const int kWidth = 8;
 
+#include "lib/changedRuns.glsl"
+
 bool isDrawn(int strip) {
 #ifdef STRIPS_OF_ROWS
-  bool drawn = false; // rows of two views may share a strip
-  for (int i = 0; i < kWidth; ++i)
-    drawn = drawn || texelFetch(changedSlices, ivec2(min(kWidth * strip + i, lines() - 1) % sliceCount, 0), 0).b > 0.0;
-  return drawn;
+  vec2 range = partsOfStrip(strip);
 #else
-  return texelFetch(changedSlices, ivec2(kWidth * strip, 0), 0).g > 0.0;
+  vec2 range = texelFetch(changedSlices, ivec2(kWidth * strip, 0), 0).rg;
 #endif
+  return range.y > range.x;
 }
-
-#include "lib/changedRuns.glsl"
 
 // The lines of an instance's rectangle, from and to.
 ivec2 linesOf(int strip) {
@@ -49,7 +46,11 @@ void main() {
   ivec2 run = linesOf(gl_InstanceID);
   for (int line = run.x; line < min(run.y, lines()); ++line) fragments = max(fragments, fragmentsOf(line));
   bvec2 at = cornerOf(gl_VertexID % 6);
-  vec2 corner = vec2(at.x ? run.y : run.x, at.y ? fragments : 0.0) / vec2(lines(), room());
+  vec2 range = vec2(0.0, fragments / room());
+#ifdef STRIPS_OF_ROWS
+  if (isPart != 0) range = min(partsOfRun(run / kWidth), range.yy);
+#endif
+  vec2 corner = vec2(float(at.x ? run.y : run.x) / float(lines()), at.y ? range.y : range.x);
 #ifdef STRIPS_OF_ROWS
   corner = corner.yx;
 #endif

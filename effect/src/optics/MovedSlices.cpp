@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace tyndall::optics {
 
@@ -71,7 +72,10 @@ public:
   double pixelAt(const dvec3& point) const {
     const double step = std::max(glm::length(dvec3(frame_.farPoint[1])), glm::length(dvec3(frame_.farPoint[2])));
     if (orthographic_) return step;
-    return step / std::max(glm::length(dvec3(frame_.farPoint[0])), 1e-300) * glm::length(point);
+    const dvec3 across = glm::cross(dvec3(frame_.farPoint[1]), dvec3(frame_.farPoint[2])); // of the far points' plane
+    const double distance =
+        std::abs(glm::dot(dvec3(frame_.farPoint[0]), across)) / std::max(glm::length(across), 1e-300);
+    return step / std::max(distance, 1e-300) * glm::length(point);
   }
 
   double difference(double a, double b) const { return parallel_ ? a - b : wrapped(a - b); }
@@ -115,19 +119,27 @@ std::array<dvec3, 8> cornersOf(const Mat4& worldFromBox, const dvec3& cameraOrig
   return corners;
 }
 
-// The planes that meet the hull of a box in two poses.
-Interval intervalOf(const MovingObject& object, const Frame& frame, const Planes& planes, const Light& light,
-                    const blocks::LightBlock& block) {
+// The corners of a box in two poses, relative to the camera's origin, widened by what samples are taken from.
+std::vector<dvec3> hullOf(const MovingObject& object, const Frame& frame, const Planes& planes, const Light& light,
+                          const blocks::LightBlock& block) {
   const dvec3 origin = cameraOrigin(frame.camera);
   const double texels = frame.settings.shadowFilter == ShadowFilter::Bilinear ? kFilterTexels : kTexels;
   double margin = 0;
   for (const Mat4* pose : {&object.worldFromObject, &object.lastWorldFromObject})
     for (const dvec3& corner : cornersOf(*pose, origin, 0))
       margin = std::max({margin, kPixels * planes.pixelAt(corner), texels * texelAt(light, block, corner)});
-  std::vector<double> places;
+  std::vector<dvec3> hull;
   for (const Mat4* pose : {&object.worldFromObject, &object.lastWorldFromObject})
     for (const dvec3& corner : cornersOf(*pose, origin, margin))
-      places.push_back(planes.placeOf(corner));
+      hull.push_back(corner);
+  return hull;
+}
+
+// The planes that meet a hull.
+Interval intervalOf(const std::vector<dvec3>& hull, const Planes& planes) {
+  std::vector<double> places;
+  for (const dvec3& corner : hull)
+    places.push_back(planes.placeOf(corner));
   for (const double place : places)
     if (!std::isfinite(place)) return {0, 0, true};
   std::sort(places.begin(), places.end());
@@ -144,15 +156,88 @@ Interval intervalOf(const MovingObject& object, const Frame& frame, const Planes
   return {end - half, half, false};
 }
 
+// Where an image or a map shows a hull; nothing of one that reaches behind its eye.
+std::vector<dvec2> shownBy(const glm::dmat4& matrix, const std::vector<dvec3>& hull) {
+  std::vector<dvec2> points;
+  for (const dvec3& corner : hull) {
+    const glm::dvec4 at = matrix * glm::dvec4(corner, 1);
+    if (!(at.w > 0)) return {};
+    points.push_back(dvec2(at) / at.w);
+  }
+  return points;
+}
+
+// The numbers along a line, dot(along, point) + offset of `count`, between those of points; two more on either side, of
+// rounding. All of them where nothing is known of the points.
+Range numbersOf(const std::vector<dvec2>& points, const dvec2& along, double offset, int count) {
+  double low = points.empty() ? -1e300 : 1e300, high = -low;
+  for (const dvec2& point : points) {
+    const double at = glm::dot(along, point) + offset;
+    if (!std::isfinite(at)) return {0, count};
+    low = std::min(low, at);
+    high = std::max(high, at);
+  }
+  return {static_cast<int>(std::clamp(std::floor(low) - 2, 0.0, double{1e9})),
+          static_cast<int>(std::clamp(std::ceil(high) + 3, 0.0, static_cast<double>(count)))};
+}
+
+// Pixels from those relative to the camera's origin.
+glm::dmat4 windowFromCamera(const Frame& frame) {
+  const dvec2 half(0.5 * frame.viewport.width, 0.5 * frame.viewport.height);
+  const glm::dmat4 windowFromClip(half.x, 0, 0, 0, 0, half.y, 0, 0, 0, 0, 1, 0, half.x, half.y, 0, 1);
+  return windowFromClip * toGlm(frame.camera.clipFromView) * toGlm(frame.camera.viewFromWorld) *
+         glm::translate(glm::dmat4(1), cameraOrigin(frame.camera));
+}
+
+// What of slices' samples and rows an object can have moved.
+class Ranges {
+public:
+  Ranges(const Frame& frame, const Light& light, const blocks::LightBlock& block, const SliceTable& slices)
+      : slices_(slices), window_(windowFromCamera(frame)) {
+    for (int v = 0; v < block.viewCount && light.shadow.texture != 0; ++v)
+      maps_.emplace_back(block.shadowViews[v].texelFromCamera);
+  }
+  std::size_t views() const { return maps_.size(); }
+
+  void take(const std::vector<dvec3>& hull) {
+    inWindow_ = shownBy(window_, hull);
+    inMaps_.clear();
+    for (const glm::dmat4& map : maps_)
+      inMaps_.push_back(shownBy(map, hull));
+  }
+
+  Range samples(std::size_t slice) const {
+    const glm::dvec4 line(texel(slice, 1));
+    return numbersOf(inWindow_, dvec2(line), line.z, static_cast<int>(line.w) + 1);
+  }
+
+  Range texels(std::size_t slice, std::size_t view) const {
+    const glm::dvec4 row(texel(slice, 2 + 2 * view));
+    const dvec2 step(row.z, row.w), along = step / std::max(glm::dot(step, step), 1e-300);
+    return numbersOf(inMaps_[view], along, -glm::dot(dvec2(row), along), slices_.longestRow);
+  }
+
+private:
+  glm::vec4 texel(std::size_t slice, std::size_t row) const {
+    return slices_.texels[row * static_cast<std::size_t>(slices_.slices) + slice];
+  }
+
+  const SliceTable& slices_;
+  glm::dmat4 window_;
+  std::vector<glm::dmat4> maps_;
+  std::vector<dvec2> inWindow_;
+  std::vector<std::vector<dvec2>> inMaps_;
+};
+
 } // namespace
 
-std::vector<bool> movedSlices(const Frame& frame, const Light& light, const blocks::LightBlock& block,
-                              const SliceTable& slices) {
+MovedSlices movedSlices(const Frame& frame, const Light& light, const blocks::LightBlock& block,
+                        const SliceTable& slices) {
   const auto count = static_cast<std::size_t>(slices.slices);
   const Planes planes(frame, light, block);
-  if (!planes.exist() || count < 3) return std::vector<bool>(count, !frame.objects.empty());
-  std::vector<double> places(count), steps(count, 0);
-  for (std::size_t i = 0; i < count; ++i)
+  const bool anywhere = !planes.exist() || count < 3;
+  std::vector<double> places(count, 0), steps(count, 0);
+  for (std::size_t i = 0; i < count && !anywhere; ++i)
     places[i] = planes.placeAt({slices.texels[i].z, slices.texels[i].w});
   for (std::size_t i = 0; i + 1 < count; ++i) {
     const double step = std::abs(planes.difference(places[i + 1], places[i]));
@@ -164,15 +249,24 @@ std::vector<bool> movedSlices(const Frame& frame, const Light& light, const bloc
     steps.front() = std::max(steps.front(), step);
     steps.back() = std::max(steps.back(), step);
   }
-  std::vector<bool> moved(count, false);
+  Ranges ranges(frame, light, block, slices);
+  MovedSlices result{std::vector<bool>(count, false), std::vector<Range>(count),
+                     std::vector<Range>(count * ranges.views())};
   for (const MovingObject& object : frame.objects) {
-    const Interval interval = intervalOf(object, frame, planes, light, block);
-    if (interval.all) return std::vector<bool>(count, true);
-    // Both neighbours of what lies between two slices, with some room for the rounding of the slices' ends.
-    for (std::size_t i = 0; i < count; ++i)
-      if (std::abs(planes.difference(places[i], interval.middle)) <= interval.half + 1.01 * steps[i]) moved[i] = true;
+    const std::vector<dvec3> hull = hullOf(object, frame, planes, light, block);
+    const Interval interval = anywhere ? Interval{0, 0, true} : intervalOf(hull, planes);
+    ranges.take(hull);
+    for (std::size_t i = 0; i < count; ++i) {
+      // Both neighbours of what lies between two slices, with some room for the rounding of the slices' ends.
+      const double apart = std::abs(planes.difference(places[i], interval.middle));
+      if (!interval.all && !(apart <= interval.half + 1.01 * steps[i])) continue;
+      result.moved[i] = true;
+      result.samples[i] = result.samples[i] | ranges.samples(i);
+      for (std::size_t v = 0; v < ranges.views(); ++v)
+        result.texels[v * count + i] = result.texels[v * count + i] | ranges.texels(i, v);
+    }
   }
-  return moved;
+  return result;
 }
 
 } // namespace tyndall::optics

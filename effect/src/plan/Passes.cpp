@@ -416,10 +416,6 @@ std::vector<PassRow> makeRows() {
           .reads({R::Image})
           .writes({R::RowDepths})
           .sameForAllLights(),
-      Row(Pass::KeepShares, "keep rows", "passes/copyTexels.frag", S::Rows)
-          .reads({R::Image})
-          .writes({R::RowShares})
-          .sameForAllLights(),
       Row(Pass::KeepHashes, "keep rows", "passes/copyTexels.frag", S::Rows)
           .reads({R::Image})
           .writes({R::RowHashes})

@@ -75,7 +75,6 @@ enum class Pass {
   // Temporal reuse (reuse/).
   KeepEnds,
   KeepRows,
-  KeepShares,
   KeepHashes,
   KeepDepth,
   ChangedParts,

@@ -18,7 +18,7 @@ using Format = TexelFormat;
 constexpr Format kGiven{}, kR8{gl::R8, 1}, kR32{gl::R32F, 4}, kRg32{gl::RG32F, 8}, kRgba32{gl::RGBA32F, 16},
     kRgba16{gl::RGBA16F, 8}, kUnorm2{gl::RG16, 4}, kUnorm4{gl::RGBA16, 8}, kRgba8{gl::RGBA8, 4};
 
-constexpr int kPartTexels = 256, kChunk = 64;
+constexpr int kChunk = 64;
 
 bool always(E) { return true; }
 bool wideColour(E e) { return e.wideColour; }
@@ -57,6 +57,7 @@ Size segments(E e) { return {e.slices, e.samples / kSegmentSamples}; }
 Size segmentEnds(E e) { return {e.slices, e.samples / kSegmentSamples + 1}; }
 Size twos(E e) { return {e.slices, e.samples / 2}; }
 Size slices(E e) { return {e.slices, 1}; }
+Size slicesAndRows(E e) { return {e.slices, e.tableRows / 2}; }
 Size one(E) { return {1, 1}; }
 Size candidateSlices(E e) { return {e.candidateSlices, e.tableRows}; }
 Size blocks(E e) { return {e.candidateSlices / SLICE_BLOCK, 1}; }
@@ -82,7 +83,7 @@ Size drawnCells(E e) { return {e.curveCells, e.rows}; }
 Size cellTree(E e) { return {curveNodes(e.curveCells), e.rowRoom}; }
 Size drawnCellTree(E e) { return {curveNodes(e.curveCells), e.rows}; }
 Size parts(E e) { return {unitsFor(e.rowTexels, kPartTexels), e.rowRoom}; }
-Size drawnParts(E e) { return {unitsFor(e.rowTexels, kPartTexels), e.rows}; }
+Size drawnParts(E e) { return {unitsFor(e.drawnTexels, kPartTexels), e.rows}; }
 
 Size lowRankRays(E e) { return {64, e.terms}; }
 Size lowRankLights(E e) { return {e.lowRankSets, 2 * e.terms * 64}; }
@@ -226,8 +227,10 @@ constexpr ResourceRow kRows[] = {
      "the same: those to be drawn anew", "changed segments"},
     {"changed slices", kRgba32, kRgba32, always, always, slices, slices, Lifetime::Light,
      "the same: from which segment to which, of eight slices", "changed slices"},
-    {"moved slices", kRgba32, kRgba32, always, always, slices, slices, Lifetime::Light,
-     "the same: those to be compared", "changed slices"},
+    {"moved slices", kRgba32, kRgba32, always, always, slicesAndRows, slicesAndRows, Lifetime::Light,
+     "the same: those to be compared, and of the rows in each shadow view which texels", "changed slices"},
+    {"moved ends", kRgba32, kRgba32, always, always, slices, slices, Lifetime::Frame,
+     "the same: of which segments the ends", "changed slices"},
     {"changed tiles", kR32, kR32, always, always, tiles, tiles, Lifetime::Frame, "the same: squares of 16 x 16 pixels",
      "flags"},
     {"last depth", kR32, kR32, always, always, image, image, Lifetime::Eye,

@@ -89,6 +89,7 @@ enum class Resource {
   ChangedSegments,
   ChangedSlices,
   MovedSlices,
+  MovedEnds,
   ChangedTiles,
   LastDepth,
   InputChecks,
@@ -163,6 +164,7 @@ TexelFormat formatOf(Resource resource, const Extent& extent);
 
 /// Samples of a slice that are refined, and with reuse drawn anew, together.
 inline constexpr int kSegmentSamples = 16;
+inline constexpr int kPartTexels = 256; ///< of a row, that are compared together
 
 /// Squares of kTile x kTile pixels of an image, whose flags stand one after the other in lines of kTilesAcross.
 inline constexpr int kTile = 16, kTilesAcross = 256;

@@ -5,6 +5,7 @@
 #include "passes/Rows.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace tyndall::reuse {
 
@@ -30,21 +31,55 @@ void refresh(LightPlanner& light, int frame) {
   light.block.endRefreshedSlice = static_cast<int>(slices * (turn + 1) / period);
 }
 
-// The slices that Frame::objects reaches, and those due to be refreshed: only they are compared, and until then drawn.
+// What eight slices share, as changedSlices.frag has them.
+constexpr std::size_t kTogether = 8;
+
+optics::Range rangeOfEight(const std::vector<optics::Range>& ranges, std::size_t first, std::size_t count) {
+  optics::Range all;
+  for (std::size_t i = first; i < first + count; ++i)
+    all = all | ranges[i];
+  return all;
+}
+
+// The slices that Frame::objects reaches, and those due to be refreshed: only they are compared, and until then drawn;
+// of them the segments whose ends, and of rows the parts whose texels, an object can have moved.
 void findMoved(LightPlanner& light, const blocks::LightBlock& block) {
-  std::vector<bool> moved = optics::movedSlices(light.frame, light.light, block, light.geometry);
-  std::fill(moved.begin() + light.block.firstRefreshedSlice, moved.begin() + light.block.endRefreshedSlice, true);
-  for (std::size_t i = 0; i < moved.size(); i += 8) { // as changedSlices.frag has them: of eight slices
-    const auto begin = moved.begin() + static_cast<std::ptrdiff_t>(i);
-    const auto end = moved.begin() + static_cast<std::ptrdiff_t>(std::min(i + 8, moved.size()));
-    std::fill(begin, end, std::find(begin, end, true) != end);
+  optics::MovedSlices moved = optics::movedSlices(light.frame, light.light, block, light.geometry);
+  const std::size_t slices = moved.moved.size(), views = moved.texels.size() / std::max<std::size_t>(slices, 1);
+  for (int i = light.block.firstRefreshedSlice; i < light.block.endRefreshedSlice; ++i) {
+    const auto slice = static_cast<std::size_t>(i);
+    moved.moved[slice] = true;
+    moved.samples[slice] = {0, light.extent.samples};
+    for (std::size_t v = 0; v < views; ++v)
+      moved.texels[v * slices + slice] = {0, light.extent.drawnTexels};
   }
-  std::vector<glm::vec4> texels(moved.size(), glm::vec4(0));
-  const int segments = light.extent.samples / kSegmentSamples;
-  std::transform(moved.begin(), moved.end(), texels.begin(),
-                 [&](bool m) { return m ? glm::vec4(0, segments, 1, 1) : glm::vec4(0); });
+  const auto segments = static_cast<float>(light.extent.samples / kSegmentSamples);
+  const bool wholeRows = light.extent.drawnTexels % kPartTexels != 0; // of small maps
+  std::vector<glm::vec4> texels(slices * (1 + views), glm::vec4(0)), ends(slices, glm::vec4(0));
+  for (std::size_t i = 0; i < slices; i += kTogether) {
+    const std::size_t together = std::min(kTogether, slices - i);
+    const auto begin = moved.moved.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::find(begin, begin + static_cast<std::ptrdiff_t>(together), true) ==
+        begin + static_cast<std::ptrdiff_t>(together))
+      continue;
+    const auto fill = [&](std::vector<glm::vec4>& to, std::size_t first, const glm::vec4& value) {
+      std::fill_n(to.begin() + static_cast<std::ptrdiff_t>(first), together, value);
+    };
+    fill(texels, i, {0, segments, 1, 1});
+    const optics::Range samples = rangeOfEight(moved.samples, i, together);
+    if (!samples.isEmpty())
+      fill(ends, i, {samples.begin / kSegmentSamples, unitsFor(samples.end, kSegmentSamples), 0, 0});
+    for (std::size_t v = 0; v < views; ++v) {
+      const optics::Range range = rangeOfEight(moved.texels, v * slices + i, together);
+      if (range.isEmpty()) continue;
+      const auto length = static_cast<float>(light.extent.drawnTexels);
+      fill(texels, (1 + v) * slices + i,
+           wholeRows ? glm::vec4(0, length / kPartTexels, 0, 0)
+                     : glm::vec4(range.begin / kPartTexels, unitsFor(range.end, kPartTexels), 0, 0));
+    }
+  }
   light.upload(R::MovedSlices, std::move(texels));
-  light.drawnSlices = light.board[R::MovedSlices];
+  light.upload(R::MovedEnds, std::move(ends));
 }
 
 // From sample ends and row depths of both frames, those that there are, to the segments and slices that have changed.
@@ -58,7 +93,9 @@ void compare(LightPlanner& light, const LightRedraw& redraw, Redrawing& frame) {
   if (rows)
     light.draw(Pass::ChangedParts, clearedTo(1, light.extent.hashes ? gl::Definitions{{"ROW_HASHES", 1}}
                                                                     : gl::Definitions{})); // 1: nothing
+  light.drawnSlices = light.board[R::MovedEnds];
   if (ends) light.draw(Pass::ChangedEnds, clearedTo(0));
+  light.drawnSlices = light.board[R::MovedSlices];
   DrawOptions segments = clearedTo(0);
   frame.count.segments += static_cast<std::uint64_t>(light.segments());
   if (frame.counts) {
@@ -69,23 +106,39 @@ void compare(LightPlanner& light, const LightRedraw& redraw, Redrawing& frame) {
   light.draw(Pass::ChangedSlices, clearedTo(0));
 }
 
-// What was compared of the slices that objects reach is copied over the last frame's.
-void keepMoved(LightPlanner& light, const KeptSlices& last, const LightRedraw& redraw) {
-  light.endsSide = last.endsSide;
-  light.rowsSide = last.rowsSide;
-  const auto keep = [&light](Pass pass, R resource) {
-    light.board[R::Image] = light.board[resource];
-    light.draw(pass);
-  };
-  if (redraw.comparesEnds) keep(Pass::KeepEnds, R::SampleEnds);
-  if (!redraw.comparesRows) return;
-  keep(Pass::KeepRows, R::RowDepths);
-  if (light.extent.shares) keep(Pass::KeepShares, R::RowShares);
-  if (light.extent.hashes) keep(Pass::KeepHashes, R::RowHashes);
+// Sample ends of this frame beside the last one's: of all, in the other texture of two; or of those that objects can
+// have moved, which are drawn over the last frame's once these have been copied.
+void drawEnds(LightPlanner& light, const KeptSlices& last, bool objects) {
+  light.drawnSlices = light.board[R::MovedEnds];
+  light.endsSide = 1 - last.endsSide;
+  if (objects) {
+    light.board[R::Image] = light.board[R::SampleEnds];
+    light.draw(Pass::KeepEnds);
+  }
+  light.board[R::LastSampleEnds] = light.board[R::SampleEnds];
+  if (objects) light.endsSide = last.endsSide;
+  light.draw(Pass::SampleEnds, {{{"KEEPS_ENDS", 1}}});
 }
 
-// Sample ends and row depths of this frame beside the last one's, and what differs: of all slices, and the last frame's
-// are then given up; or of those that objects reach.
+// The same of row depths, and of what else tells a change of them.
+void drawRows(LightPlanner& light, const KeptSlices& last, bool objects) {
+  light.drawnSlices = light.board[R::MovedSlices];
+  light.rowsSide = 1 - last.rowsSide;
+  light.extent.hashes = light.extent.shares;
+  for (const auto& [pass, resource, kept] : {std::tuple(Pass::KeepRows, R::RowDepths, R::LastRowDepths),
+                                             std::tuple(Pass::KeepHashes, R::RowHashes, R::LastRowHashes)}) {
+    if (resource == R::RowHashes && !light.extent.hashes) continue;
+    if (objects) {
+      light.board[R::Image] = light.board[resource];
+      light.draw(pass);
+    }
+    light.board[kept] = light.board[resource];
+  }
+  if (objects) light.rowsSide = last.rowsSide;
+  passes::rows::planDepths(light, passes::rows::Walk::Lit, true);
+}
+
+// Sample ends and row depths of this frame beside the last one's, and what differs.
 void planChanged(LightPlanner& light, const KeptSlices& last, const LightRedraw& redraw, Redrawing& frame) {
   const bool objects = light.frame.reuse.changes == Changes::Objects;
   takeKept(light, last);
@@ -95,19 +148,9 @@ void planChanged(LightPlanner& light, const KeptSlices& last, const LightRedraw&
   light.block.keepsEnds = redraw.mixesEnds ? 1 : 0;
   light.selectDraw(0);
   if (objects) findMoved(light, last.key.block);
-  if (redraw.comparesEnds) {
-    light.board[R::LastSampleEnds] = light.board[R::SampleEnds];
-    light.endsSide = 1 - last.endsSide;
-    light.draw(Pass::SampleEnds, {{{"KEEPS_ENDS", 1}}});
-  }
-  if (redraw.comparesRows) {
-    light.board[R::LastRowDepths] = light.board[R::RowDepths];
-    light.board[R::LastRowHashes] = light.board[R::RowHashes];
-    light.rowsSide = 1 - last.rowsSide;
-    passes::rows::planDepths(light, passes::rows::Walk::Lit, true);
-  }
+  if (redraw.comparesEnds) drawEnds(light, last, objects);
+  if (redraw.comparesRows) drawRows(light, last, objects);
   compare(light, redraw, frame);
-  if (objects) keepMoved(light, last, redraw);
   light.drawnSlices = light.board[R::ChangedSlices];
   light.drawnSegments = light.board[R::ChangedSegments];
   if (redraw.comparesRows) passes::rows::planTree(light, passes::rows::Walk::Lit);

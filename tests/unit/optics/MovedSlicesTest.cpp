@@ -20,7 +20,9 @@ using tyndall::Light;
 using tyndall::MovingObject;
 using tyndall::optics::lightBlock;
 using tyndall::optics::makeSlices;
+using tyndall::optics::MovedSlices;
 using tyndall::optics::movedSlices;
+using tyndall::optics::Range;
 using tyndall::optics::SliceTable;
 
 namespace {
@@ -29,14 +31,16 @@ constexpr int kWidth = 64, kHeight = 40;
 
 struct Moved {
   SliceTable table;
+  MovedSlices ranges;
   std::vector<bool> flags;
   int count() const { return static_cast<int>(std::count(flags.begin(), flags.end(), true)); }
 };
 
 Moved movedOf(const Frame& frame, int map = 0) {
   const Light& light = frame.lights[0];
-  Moved moved{makeSlices(frame, light, map, map), {}};
-  moved.flags = movedSlices(frame, light, lightBlock(frame, light, map, map), moved.table);
+  Moved moved{makeSlices(frame, light, map, map), {}, {}};
+  moved.ranges = movedSlices(frame, light, lightBlock(frame, light, map, map), moved.table);
+  moved.flags = moved.ranges.moved;
   return moved;
 }
 
@@ -103,9 +107,70 @@ int missed(const Frame& frame, const Moved& moved, int map, Random& random, int&
             glm::any(glm::greaterThan(at.window, dvec2(kWidth, kHeight))))
           continue;
         ++seen;
-        count += missedAt(moved, i % 2 ? at.window : glm::floor(at.window) + 0.5);
+        // No pixel's centre lies nearer to the image's border than half a pixel, and an epipole may.
+        const dvec2 within = glm::clamp(at.window, dvec2(0.5), dvec2(kWidth, kHeight) - 0.5);
+        count += missedAt(moved, i % 2 ? within : glm::floor(at.window) + 0.5);
       }
   return count;
+}
+
+glm::dvec4 texelOf(const SliceTable& table, int slice, int row) {
+  return table
+      .texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(table.slices) + static_cast<std::size_t>(slice)];
+}
+
+// 1 if a number that a table has is not in a range.
+int missedAt(const Range& range, double at, double count) {
+  if (!(at >= 0 && at < count)) return 0;
+  return at >= range.begin && at < range.end ? 0 : 1;
+}
+
+// Of moved slices: samples beside a pixel that shows the point, and texels of rows beside where maps show it, that are
+// not in the ranges.
+int outOfRanges(const Frame& frame, const Moved& moved, int map, const dvec3& point, int& seen) {
+  int count = 0;
+  const Seen at = seenAt(frame, point);
+  for (int slice = 0; slice < moved.table.slices; ++slice) {
+    const glm::dvec4 line = texelOf(moved.table, slice, 1);
+    if (!moved.flags[static_cast<std::size_t>(slice)]) continue;
+    if (!(at.w > 0) || distanceTo(moved.table, slice, at.window) > 1) continue;
+    const double number = glm::dot(dvec2(line), at.window) + line.z;
+    for (const double sample : {std::floor(number), std::ceil(number)})
+      count += missedAt(moved.ranges.samples[static_cast<std::size_t>(slice)], sample, line.w + 1);
+    ++seen;
+  }
+  const Light& light = frame.lights[0];
+  for (std::size_t v = 0; light.shadow.texture != 0 && v < light.shadow.views.size(); ++v) {
+    const glm::dvec4 clip = host::fromMat4(light.shadow.views[v].clipFromWorld) * glm::dvec4(point, 1);
+    if (!(clip.w > 0) || std::max(std::abs(clip.x), std::abs(clip.y)) > clip.w) continue;
+    const dvec2 texel = (0.5 * dvec2(clip) / clip.w + 0.5) * static_cast<double>(map);
+    for (int slice = 0; slice < moved.table.slices; ++slice) {
+      const glm::dvec4 row = texelOf(moved.table, slice, 2 + 2 * static_cast<int>(v));
+      const dvec2 step(row.z, row.w), from = texel - dvec2(row);
+      if (!moved.flags[static_cast<std::size_t>(slice)]) continue;
+      if (std::abs(from.x * step.y - from.y * step.x) > 0.5 * glm::length(step)) continue;
+      const double texels = texelOf(moved.table, slice, 3 + 2 * static_cast<int>(v)).x;
+      count += missedAt(
+          moved.ranges.texels[v * static_cast<std::size_t>(moved.table.slices) + static_cast<std::size_t>(slice)],
+          std::floor(glm::dot(from, step) / glm::dot(step, step)), texels);
+      ++seen;
+    }
+  }
+  return count;
+}
+
+// Numbers in ranges, over those of all slices: of the samples, row 1 of the table, or of the texels, every second from
+// 3 on.
+double shareOf(const std::vector<Range>& ranges, const Moved& moved, int row) {
+  double in = 0, all = 0;
+  for (const Range& range : ranges)
+    in += std::max(range.end - range.begin, 0);
+  for (int end = row == 1 ? 2 : moved.table.rows; row < end; row += 2)
+    for (int slice = 0; slice < moved.table.slices; ++slice) {
+      const glm::dvec4 texel = texelOf(moved.table, slice, row);
+      all += row == 1 ? texel.w + 1 : texel.x;
+    }
+  return in / std::max(all, 1.0);
 }
 
 // Looks along -z from the origin, 90 degrees wide and high; one slice for each pixel of the border.
@@ -168,9 +233,9 @@ TEST_CASE("a light at the eye, and two slices, are moved by any object") {
 
 TEST_CASE("every pixel that shows an object or its shadow belongs to a moved slice; most others do not") {
   Random random(71);
-  int seen = 0;
-  double share = 0;
-  int frames = 0;
+  int seen = 0, numbered = 0;
+  double share = 0, samples = 0, texels = 0;
+  int frames = 0, mapped = 0;
   for (const Projection& p : projections())
     for (int kind = 0; kind < 3; ++kind)
       for (int i = 0; i < 12; ++i) {
@@ -194,7 +259,18 @@ TEST_CASE("every pixel that shows an object or its shadow belongs to a moved sli
         CHECK(std::abs(same.count() - moved.count()) <= 2); // rounding of a slice's edge, on either side
         share += static_cast<double>(moved.count()) / moved.table.slices;
         ++frames;
+        for (const tyndall::Mat4* pose : {&frame.objects[0].worldFromObject, &frame.objects[0].lastWorldFromObject})
+          for (int k = 0; k < 20; ++k)
+            CHECK(outOfRanges(frame, moved, map, host::fromMat4(*pose) * glm::dvec4(random.inCube(1), 1), numbered) ==
+                  0);
+        samples += shareOf(moved.ranges.samples, moved, 1);
+        if (map < 1024 || light.shadow.texture == 0) continue;
+        texels += shareOf(moved.ranges.texels, moved, 3);
+        ++mapped;
       }
   CHECK(seen > 20000);
+  CHECK(numbered > 20000);
   CHECK(share < 0.45 * frames);
+  CHECK(samples < 0.3 * frames);
+  CHECK(texels < 0.3 * mapped);
 }
