@@ -138,6 +138,7 @@ std::vector<dvec3> hullOf(const MovingObject& object, const Frame& frame, const 
 // The planes that meet a hull.
 Interval intervalOf(const std::vector<dvec3>& hull, const Planes& planes) {
   std::vector<double> places;
+  places.reserve(hull.size());
   for (const dvec3& corner : hull)
     places.push_back(planes.placeOf(corner));
   for (const double place : places)
@@ -177,7 +178,7 @@ Range numbersOf(const std::vector<dvec2>& points, const dvec2& along, double off
     low = std::min(low, at);
     high = std::max(high, at);
   }
-  return {static_cast<int>(std::clamp(std::floor(low) - 2, 0.0, double{1e9})),
+  return {static_cast<int>(std::clamp(std::floor(low) - 2, 0.0, 1e9)),
           static_cast<int>(std::clamp(std::ceil(high) + 3, 0.0, static_cast<double>(count)))};
 }
 

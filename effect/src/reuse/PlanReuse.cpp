@@ -11,8 +11,8 @@
 // Temporal reuse (Frame::reuse; Lin et al. 2013). An eye's picture, inscatter and transmittance, and its lights'
 // epipolar textures are kept from frame to frame:
 //
-//   for each light:   depth, maps --> [changed ...], of the slices that objects reach or of all --> changed segments
-//   and slices
+//   for each light:   depth, maps --> [sample ends], [rows], [changed ...], of what objects can have moved in the
+//   slices that they reach, or of all --> changed segments and slices
 //                     --> the passes of Epipolar.cpp, up to [interpolate], over those
 //   for each light:   changed segments, scene depth, last depth --> [tiles] --> changed tiles, or [changed pixels] -->
 //                     stencil (Tuning::reuse)

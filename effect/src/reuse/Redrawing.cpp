@@ -53,7 +53,7 @@ void findMoved(LightPlanner& light, const blocks::LightBlock& block) {
     for (std::size_t v = 0; v < views; ++v)
       moved.texels[v * slices + slice] = {0, light.extent.drawnTexels};
   }
-  const auto segments = static_cast<float>(light.extent.samples / kSegmentSamples);
+  const int segments = light.extent.samples / kSegmentSamples;
   const bool wholeRows = light.extent.drawnTexels % kPartTexels != 0; // of small maps
   std::vector<glm::vec4> texels(slices * (1 + views), glm::vec4(0)), ends(slices, glm::vec4(0));
   for (std::size_t i = 0; i < slices; i += kTogether) {
