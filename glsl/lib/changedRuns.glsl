@@ -6,13 +6,17 @@ bool isDrawn(int strip);
 
 const int kRun = 8;
 
-// What of a row is drawn, as shares of its length, from and to: nothing, all, or, by a table that says so of each view, the parts of 256
-// texels that an object can have changed.
+#ifndef PARTS
+#define PARTS rg // of which texels are compared, and kept; ba: those that are drawn
+#endif
+
+// What of a row is drawn, as shares of its length, from and to: nothing, all, or, by a table that says so of each view, the texels that an
+// object can have changed.
 vec2 partsOf(int line) {
   ivec2 at = ivec2(line % sliceCount, 0);
   if (textureSize(changedSlices, 0).y == 1) return vec2(0.0, texelFetch(changedSlices, at, 0).b);
   at.y = 1 + line / sliceCount;
-  return texelFetch(changedSlices, at, 0).rg * (256.0 / float(rowLength));
+  return texelFetch(changedSlices, at, 0).PARTS / float(rowLength);
 }
 
 // Of both, where neither may be empty.

@@ -23,6 +23,7 @@ float room() { return float(samplesPerSlice / 2); }
 flat out int isPart; // 1: only what has changed is drawn
 const int kWidth = 8;
 
+#define PARTS ba
 #include "lib/changedRuns.glsl"
 
 bool isDrawn(int strip) {

@@ -31,8 +31,9 @@ void refresh(LightPlanner& light, int frame) {
   light.block.endRefreshedSlice = static_cast<int>(slices * (turn + 1) / period);
 }
 
-// What eight slices share, as changedSlices.frag has them.
+// What eight slices share, as changedSlices.frag has them; texels of a row that a fragment makes.
 constexpr std::size_t kTogether = 8;
+constexpr int kGroup = 4;
 
 optics::Range rangeOfEight(const std::vector<optics::Range>& ranges, std::size_t first, std::size_t count) {
   optics::Range all;
@@ -73,9 +74,10 @@ void findMoved(LightPlanner& light, const blocks::LightBlock& block) {
       const optics::Range range = rangeOfEight(moved.texels, v * slices + i, together);
       if (range.isEmpty()) continue;
       const auto length = static_cast<float>(light.extent.drawnTexels);
+      const int first = range.begin / kPartTexels * kPartTexels, last = roundedUp(range.end, kPartTexels);
       fill(texels, (1 + v) * slices + i,
-           wholeRows ? glm::vec4(0, length / kPartTexels, 0, 0)
-                     : glm::vec4(range.begin / kPartTexels, unitsFor(range.end, kPartTexels), 0, 0));
+           wholeRows ? glm::vec4(0, length, 0, length)
+                     : glm::vec4(first, last, range.begin / kGroup * kGroup, roundedUp(range.end, kGroup)));
     }
   }
   light.upload(R::MovedSlices, std::move(texels));
