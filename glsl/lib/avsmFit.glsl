@@ -6,14 +6,15 @@
 vec2 integrals[TYNDALL_CURVE_ROOM];
 
 // Removes an inner node, of those in front of the last one; its stretches become one. It is the node for which the square of the mean difference
-// times the length, which the square of the difference is at least, is least.
+// times the length, which the square of the difference is at least, is least; one that is another again costs nothing.
 void removeCheapestBefore(int last) {
   float least = 3e38;
   int cheapest = 1;
   for (int i = 1; i < TYNDALL_CURVE_ROOM - 1; ++i) {
-    vec2 a = tyndallCurve[i - 1], c = tyndallCurve[i + 1];
+    vec2 a = tyndallCurve[i - 1], b = tyndallCurve[i], c = tyndallCurve[i + 1];
     float size = c.x - a.x, changed = integrals[i - 1].x + integrals[i].x - 0.5 * (a.y + c.y) * size;
-    float cost = i < last ? changed * changed / max(size, 1e-12) : 3e38;
+    float cost = b == a || b == c ? 0.0 : changed * changed / max(size, 1e-12);
+    cost = i < last ? cost : 3e38;
     cheapest = cost < least ? i : cheapest;
     least = min(cost, least);
   }

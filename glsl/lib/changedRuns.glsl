@@ -1,14 +1,11 @@
 // Runs of changed strips of kWidth lines, of up to kRun strips: one rectangle is drawn for each, since the pixels along the diagonal
-// between a rectangle's two triangles are shaded twice. Needs kWidth and bool isDrawn(strip).
+// between a rectangle's two triangles are shaded twice. Needs kWidth, bool isDrawn(strip), and PARTS, which of a
+// table's ranges of texels are meant: rg, those that are compared and kept, in parts of 256, or ba, those that are drawn.
 
 uniform sampler2D changedSlices;
 bool isDrawn(int strip);
 
 const int kRun = 8;
-
-#ifndef PARTS
-#define PARTS rg // of which texels are compared, and kept; ba: those that are drawn
-#endif
 
 // What of a row is drawn, as shares of its length, from and to: nothing, all, or, by a table that says so of each view, the texels that an
 // object can have changed.
@@ -22,10 +19,13 @@ vec2 partsOf(int line) {
 // Of both, where neither may be empty.
 vec2 unionOf(vec2 a, vec2 b) { return a.x >= a.y ? b : b.x >= b.y ? a : vec2(min(a.x, b.x), max(a.y, b.y)); }
 
-// Of a strip's rows: slices change by eight, but rows of two views may share a strip.
+// Of a strip's rows: those of eight slices that share what has changed, or, where eight does not divide the slices, also the last slices of a
+// view and those before and behind them.
 vec2 partsOfStrip(int strip) {
-  int last = drawnViews * sliceCount - 1;
-  return unionOf(partsOf(min(kWidth * strip, last)), partsOf(min(kWidth * (strip + 1) - 1, last)));
+  vec2 parts = partsOf(kWidth * strip);
+  if (sliceCount % kWidth == 0) return parts;
+  for (int line = kWidth * strip + 1; line < min(kWidth * (strip + 1), drawnViews * sliceCount); ++line) parts = unionOf(parts, partsOf(line));
+  return parts;
 }
 
 // Of a run's.

@@ -4,6 +4,7 @@
 
 const int kWidth = 8;
 
+#define PARTS rg
 #include "lib/changedRuns.glsl"
 
 int lines() { return ALONG == 3 ? drawnViews * sliceCount : sliceCount; }
@@ -19,9 +20,13 @@ bool isDrawn(int strip) {
 // One of an instance's six vertices.
 vec4 stripVertex(int vertex) {
   ivec2 run = runFrom(gl_InstanceID, (lines() + kWidth - 1) / kWidth);
-  vec2 range = vec2(0.0);
-  for (int strip = run.x; strip < run.y; ++strip) range = unionOf(range, segmentsOf(strip));
-  range = ALONG == 3 ? partsOfRun(run) : ALONG == 2 ? vec2(0.0, 1.0) : range / float(samplesPerSlice / 16 + ALONG);
+  vec2 range = vec2(0.0, 1.0);
+  if (ALONG == 3) range = partsOfRun(run);
+  if (ALONG < 2) {
+    range = vec2(0.0);
+    for (int strip = run.x; strip < run.y; ++strip) range = unionOf(range, segmentsOf(strip));
+    range /= float(samplesPerSlice / 16 + ALONG);
+  }
   bvec2 at = cornerOf(vertex);
   vec2 corner = vec2(float(kWidth * (at.x ? run.y : run.x)) / float(lines()), at.y ? range.y : range.x);
   if (ALONG == 3) corner = corner.yx;

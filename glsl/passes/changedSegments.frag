@@ -1,24 +1,16 @@
 // Changed segments: those of which a sample may not be what it was in the last frame. Its inscatter follows from the ends and
 // the light of the samples from the begin of its chunk of 64, whose extra samples are packed together, and of the segment
 // before that, to the second segment behind it. The others are discarded, so that these can be counted.
-// Reads the slice table, sampleEnds of both frames and changedEnds (comparesEnds), changedParts (comparesRows). Writes slices x segments: 1.
+// Reads the slice table, sampleEnds, changedEnds (comparesEnds), changedParts (comparesRows). Writes slices x segments: 1.
 #include "shared.glsl"
 #include "lib/camera.glsl"
 #include "lib/slices.glsl"
 #include "lib/rows.glsl"
 
 uniform sampler2D sampleEnds;
-uniform sampler2D lastSampleEnds;
 uniform sampler2D changedEnds;
 uniform sampler2D changedParts;
 layout(location = 0) out vec4 outChanged;
-
-// The last frame's are there only where they may be others.
-float endAt(int slice, int i) {
-  float end = texelFetch(sampleEnds, ivec2(slice, i), 0).r;
-  if (comparesEnds != 0 && texelFetch(changedEnds, ivec2(slice, i >> 4), 0).r > 0.0) end = max(end, texelFetch(lastSampleEnds, ivec2(slice, i), 0).r);
-  return end;
-}
 
 // A ray in a view's texels and depth: homogeneous begin and direction, and where the row of the slice lies.
 struct ViewRay {
@@ -46,7 +38,7 @@ bool addCrossing(ViewRay ray, vec2 along, float at, inout vec2 range) {
   return true;
 }
 
-// True if the rays from sample `first` to `last` of a slice may meet a change of its rows.
+// True if the rays from sample `first` to `last` of a slice, whose ends are as they were, may meet a change of its rows.
 bool meetsChange(int slice, int samples, int first, int last) {
   vec4 ends = sliceEnds(slice);
   Ray low = cameraRay(samplePosition(ends, samples, float(first))), high = cameraRay(samplePosition(ends, samples, float(last)));
@@ -64,7 +56,7 @@ bool meetsChange(int slice, int samples, int first, int last) {
     ViewRay a = viewRay(view, low), b = viewRay(view, high);
     for (int i = first; i <= last; ++i) {
       ViewRay ray = viewRay(view, cameraRay(samplePosition(ends, samples, float(i))));
-      reach = max(reach, indexAt(ray, along, origin, max(endAt(slice, i), 0.0)));
+      reach = max(reach, indexAt(ray, along, origin, max(texelFetch(sampleEnds, ivec2(slice, i), 0).r, 0.0)));
     }
     for (int part = 0; part < parts; ++part) {
       vec2 bounds = texelFetch(changedParts, ivec2(part, rowOf(view, slice)), 0).rg;

@@ -1,5 +1,5 @@
 // Strips: one rectangle per 64 lines, slices or rows, or, for temporal reuse, of eight where any has changed, neighbours as one, as long as
-// the fullest of them needs, in a target of slices x fragments or, for the rows, fragments x rows.
+// the fullest of them needs, of rows no more than what objects can have moved, in a target of slices x fragments or, for the rows, fragments x rows.
 // Reads, for the rows (STRIPS_OF_ROWS 1: four texels a fragment), the slice table, or, for the extra march samples (two
 // a fragment), extraOffsets; changedSlices. Draws 6 vertices an instance: from 0 on all, from 6 on what has changed.
 #include "shared.glsl"

@@ -338,7 +338,8 @@ Status Avsm::State::makeObjects() {
 
 Status Avsm::State::allocate() {
   gl::OwnErrors errors(gl);
-  lists = std::make_unique<avsm::Lists>(gl, config.size, config.layers, config.mostListBytes);
+  lists = std::make_unique<avsm::Lists>(gl, config.size, config.layers, config.mostListBytes,
+                                        config.reduction == CurveReduction::WholeCurve);
   volumes.makeObjects();
   curves = gl::Texture(gl);
   particlesBlock = gl::Buffer(gl);

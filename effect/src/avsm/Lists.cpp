@@ -10,7 +10,7 @@ namespace tyndall::avsm {
 
 namespace {
 
-constexpr std::uint64_t kListBytes = 16, kSegmentBytes = 16, kExitBytes = 4;
+constexpr std::uint64_t kListBytes = 16, kSegmentBytes = 16;
 constexpr std::uint64_t kFirstPerList = 8; // segments, until a frame has told
 
 std::uint64_t listsOf(int size, int layers) {
@@ -23,8 +23,8 @@ std::uint64_t leastBufferBytes(int size, int layers) {
   return sizeof(ListsHeader) + listsOf(size, layers) * std::max(kListBytes, kSegmentBytes);
 }
 
-Lists::Lists(const gl::Functions& gl, int size, int layers, std::uint64_t mostBytes)
-    : gl_(gl), lists_(listsOf(size, layers)), mostBytes_(mostBytes) {
+Lists::Lists(const gl::Functions& gl, int size, int layers, std::uint64_t mostBytes, bool sortsExits)
+    : gl_(gl), lists_(listsOf(size, layers)), mostBytes_(mostBytes), exitBytes_(sortsExits ? 4 : 0) {
   empty_.width = empty_.height = size;
   empty_.layers = layers;
   for (Reading& reading : readings_) {
@@ -45,14 +45,14 @@ std::uint64_t Lists::mostRoom() const {
   gl_.GetIntegerv(gl::MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
   const auto over = [&](std::uint64_t all) { return all > lists_ ? all - lists_ : 0; };
   const std::uint64_t least = lists_ * kListBytes;
-  const std::uint64_t memory = mostBytes_ > least ? (mostBytes_ - least) / (kSegmentBytes + kExitBytes) : 0;
+  const std::uint64_t memory = mostBytes_ > least ? (mostBytes_ - least) / (kSegmentBytes + exitBytes_) : 0;
   const std::uint64_t block = static_cast<std::uint64_t>(limit > 0 ? limit : INT32_MAX) / kSegmentBytes;
   return std::min({over(memory), over(block), over(UINT32_MAX - lists_)});
 }
 
 std::uint64_t Lists::bytes() const {
   if (!allocated_) return 0;
-  return sizeof(ListsHeader) + lists_ * kListBytes + (lists_ + room_) * (kSegmentBytes + kExitBytes);
+  return sizeof(ListsHeader) + lists_ * kListBytes + (lists_ + room_) * (kSegmentBytes + exitBytes_);
 }
 
 Status Lists::allocate(gl::Buffer& buffer, std::uint64_t bytes) const {
@@ -73,7 +73,8 @@ Status Lists::makeRoom() {
   if (!allocated_)
     if (Status s = allocate(lists, sizeof(ListsHeader) + lists_ * kListBytes); !s) return s;
   if (Status s = allocate(segments, (lists_ + room) * kSegmentBytes); !s) return s;
-  if (Status s = allocate(exits, (lists_ + room) * kExitBytes); !s) return s;
+  if (exitBytes_ > 0)
+    if (Status s = allocate(exits, (lists_ + room) * exitBytes_); !s) return s;
   if (!allocated_) listBuffer_ = std::move(lists);
   segmentBuffer_ = std::move(segments);
   exitBuffer_ = std::move(exits);
@@ -97,7 +98,7 @@ void Lists::empty() const {
 void Lists::bind(gl::Uint first, bool withExits, gl::Uint end) const {
   if (first < end) gl_.BindBufferBase(gl::SHADER_STORAGE_BUFFER, first, listBuffer_.name());
   if (first + 1 < end) gl_.BindBufferBase(gl::SHADER_STORAGE_BUFFER, first + 1, segmentBuffer_.name());
-  if (withExits) gl_.BindBufferBase(gl::SHADER_STORAGE_BUFFER, first + 2, exitBuffer_.name());
+  if (withExits && exitBytes_ > 0) gl_.BindBufferBase(gl::SHADER_STORAGE_BUFFER, first + 2, exitBuffer_.name());
 }
 
 void Lists::send() {

@@ -23,7 +23,7 @@ struct ListsHeader {
 
 class Lists {
 public:
-  Lists(const gl::Functions& gl, int size, int layers, std::uint64_t mostBytes);
+  Lists(const gl::Functions& gl, int size, int layers, std::uint64_t mostBytes, bool sortsExits);
   ~Lists();
   Lists(const Lists&) = delete;
   Lists& operator=(const Lists&) = delete;
@@ -62,8 +62,8 @@ private:
   const gl::Functions& gl_;
   ListsHeader empty_;
   std::uint64_t lists_;
-  std::uint64_t mostBytes_;
-  std::uint64_t room_ = 0; // of the buffers as they are
+  std::uint64_t mostBytes_, exitBytes_; // of a segment, where exits are sorted, too
+  std::uint64_t room_ = 0;              // of the buffers as they are
   gl::Buffer listBuffer_, segmentBuffer_, exitBuffer_;
   bool allocated_ = false;
   ListsHeader known_;

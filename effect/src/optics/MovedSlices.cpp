@@ -1,5 +1,6 @@
 #include "optics/MovedSlices.h"
 
+#include "Rounding.h"
 #include "optics/Blocks.h"
 #include "optics/Matrices.h"
 
@@ -20,6 +21,7 @@ using glm::dvec3;
 // the slope; of its nearest shadow texel, or of the four of a filter.
 constexpr double kPixels = 1.75, kTexels = 0.75, kFilterTexels = 1.5;
 constexpr double kPi = glm::pi<double>();
+constexpr int kNode = 16; // texels of a row's smallest node
 
 double wrapped(double angle) { return std::remainder(angle, 2 * kPi); }
 
@@ -119,15 +121,24 @@ std::array<dvec3, 8> cornersOf(const Mat4& worldFromBox, const dvec3& cameraOrig
   return corners;
 }
 
+// Pixels that a texel of the engine's depth covers, at least one.
+double pixelsOfTexel(const Frame& frame) {
+  const Rectangle& texels = frame.depth.rectangle;
+  if (texels.width <= 0 || texels.height <= 0) return 1;
+  return std::max({1.0, static_cast<double>(frame.viewport.width) / texels.width,
+                   static_cast<double>(frame.viewport.height) / texels.height});
+}
+
 // The corners of a box in two poses, relative to the camera's origin, widened by what samples are taken from.
 std::vector<dvec3> hullOf(const MovingObject& object, const Frame& frame, const Planes& planes, const Light& light,
                           const blocks::LightBlock& block) {
   const dvec3 origin = cameraOrigin(frame.camera);
   const double texels = frame.settings.shadowFilter == ShadowFilter::Bilinear ? kFilterTexels : kTexels;
+  const double pixels = kPixels * pixelsOfTexel(frame);
   double margin = 0;
   for (const Mat4* pose : {&object.worldFromObject, &object.lastWorldFromObject})
     for (const dvec3& corner : cornersOf(*pose, origin, 0))
-      margin = std::max({margin, kPixels * planes.pixelAt(corner), texels * texelAt(light, block, corner)});
+      margin = std::max({margin, pixels * planes.pixelAt(corner), texels * texelAt(light, block, corner)});
   std::vector<dvec3> hull;
   for (const Mat4* pose : {&object.worldFromObject, &object.lastWorldFromObject})
     for (const dvec3& corner : cornersOf(*pose, origin, margin))
@@ -157,22 +168,33 @@ Interval intervalOf(const std::vector<dvec3>& hull, const Planes& planes) {
   return {end - half, half, false};
 }
 
-// Where an image or a map shows a hull; nothing of one that reaches behind its eye.
-std::vector<dvec2> shownBy(const glm::dmat4& matrix, const std::vector<dvec3>& hull) {
+// Where an image or a map shows a hull: nowhere if it lies behind its eye, anywhere if it reaches there.
+struct Shown {
+  bool anywhere = false;
   std::vector<dvec2> points;
+};
+
+Shown shownBy(const glm::dmat4& matrix, const std::vector<dvec3>& hull) {
+  Shown shown;
+  std::size_t behind = 0;
   for (const dvec3& corner : hull) {
     const glm::dvec4 at = matrix * glm::dvec4(corner, 1);
-    if (!(at.w > 0)) return {};
-    points.push_back(dvec2(at) / at.w);
+    if (at.w > 0)
+      shown.points.push_back(dvec2(at) / at.w);
+    else if (at.w <= 0)
+      ++behind;
   }
-  return points;
+  shown.anywhere = shown.points.size() + behind < hull.size() || (behind > 0 && behind < hull.size());
+  return shown;
 }
 
 // The numbers along a line, dot(along, point) + offset of `count`, between those of points; two more on either side, of
-// rounding. All of them where nothing is known of the points.
-Range numbersOf(const std::vector<dvec2>& points, const dvec2& along, double offset, int count) {
-  double low = points.empty() ? -1e300 : 1e300, high = -low;
-  for (const dvec2& point : points) {
+// rounding.
+Range numbersOf(const Shown& shown, const dvec2& along, double offset, int count) {
+  if (shown.anywhere) return {0, count};
+  if (shown.points.empty()) return {};
+  double low = 1e300, high = -low;
+  for (const dvec2& point : shown.points) {
     const double at = glm::dot(along, point) + offset;
     if (!std::isfinite(at)) return {0, count};
     low = std::min(low, at);
@@ -212,10 +234,15 @@ public:
     return numbersOf(inWindow_, dvec2(line), line.z, static_cast<int>(line.w) + 1);
   }
 
+  // With a row's last texel also those behind it, to the end of a node of 16 (rows.glsl), which look at the map's
+  // border.
   Range texels(std::size_t slice, std::size_t view) const {
     const glm::dvec4 row(texel(slice, 2 + 2 * view));
     const dvec2 step(row.z, row.w), along = step / std::max(glm::dot(step, step), 1e-300);
-    return numbersOf(inMaps_[view], along, -glm::dot(dvec2(row), along), slices_.longestRow);
+    const int count = std::max(static_cast<int>(texel(slice, 3 + 2 * view).x), 1);
+    Range range = numbersOf(inMaps_[view], along, -glm::dot(dvec2(row), along), count);
+    if (!range.isEmpty() && range.end == count) range.end = roundedUp(count, kNode);
+    return range;
   }
 
 private:
@@ -226,8 +253,8 @@ private:
   const SliceTable& slices_;
   glm::dmat4 window_;
   std::vector<glm::dmat4> maps_;
-  std::vector<dvec2> inWindow_;
-  std::vector<std::vector<dvec2>> inMaps_;
+  Shown inWindow_;
+  std::vector<Shown> inMaps_;
 };
 
 } // namespace

@@ -435,7 +435,7 @@ std::vector<PassRow> makeRows() {
           .sameForAllLights(),
       Row(Pass::ChangedSegments, "changed segments", "passes/changedSegments.frag", S::Slices)
           .reads({R::SliceTable, R::SampleEnds})
-          .readsIfThere({R::LastSampleEnds, R::ChangedEnds, R::ChangedParts}) // of what is compared
+          .readsIfThere({R::ChangedEnds, R::ChangedParts}) // of what is compared
           .writes({R::ChangedSegments}),
       Row(Pass::ChangedSlices, "changed slices", "passes/changedSlices.frag", S::Columns)
           .reads({R::SliceTable, R::ChangedSegments})

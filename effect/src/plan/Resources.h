@@ -81,7 +81,7 @@ enum class Resource {
   TintSumsGreen,
   TintSumsBlue,
   RowHashes,
-  LastSampleEnds, // the last frame's, which its own row made
+  LastSampleEnds, // the last frame's, of named objects copies of what these can have moved
   LastRowDepths,
   LastRowHashes,
   ChangedParts,

@@ -40,6 +40,43 @@ TEST_CASE("reused frames are the frames in full, by every light, filter and way 
     }
 }
 
+// In maps of 1024 texels only those parts of rows are made that an object can have changed; 67 slices are not so many
+// eights, so that rows of one view stand beside another's in a group; and what was compared of a part is followed by
+// what was of all.
+TEST_CASE("parts of rows in several views, by slices that are no eights, with what moved named and detected in turn",
+          "[sweep]") {
+  struct Case {
+    Light light;
+    bool glass;
+    ShadowFilter filter;
+    int cascades;
+  };
+  const auto nearest = ShadowFilter::Nearest, bilinear = ShadowFilter::Bilinear;
+  for (const Case& item :
+       {Case{sun(), false, nearest, 3}, Case{sun(), true, bilinear, 1}, Case{sun(), false, bilinear, 4},
+        Case{point(), false, nearest, 1}, Case{spot(), true, nearest, 1}})
+    for (const int slices : {65, 67}) {
+      CAPTURE(static_cast<int>(item.light.kind), item.glass, static_cast<int>(item.filter), item.cascades, slices);
+      tests::ShaftRig rig(96, 64);
+      Light light = item.light;
+      if (item.cascades > 1) light.shadow.views = tests::shadowViews(light, item.cascades);
+      rig.addLight(light, 1024, item.glass);
+      rig.scene.frame.settings.shadowFilter = item.filter;
+      rig.scene.frame.settings.slices = slices;
+      begin(rig, Changes::Objects);
+      int parts = 0;
+      for (int frame = 0; frame < 7; ++frame) {
+        CAPTURE(frame);
+        rig.scene.frame.reuse.changes = frame % 3 == 2 ? Changes::Detect : Changes::Objects;
+        moveTo(rig, frame);
+        const Picture picture = reused(rig);
+        checkSame(picture, full(rig));
+        if (picture.share > 0 && picture.share < 1) ++parts;
+      }
+      CHECK(parts == 6);
+    }
+}
+
 namespace {
 
 // A slab with one face in a plane through the eye and the sun overhead: all of its edge is seen, and casts, in one

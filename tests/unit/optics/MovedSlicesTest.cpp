@@ -168,7 +168,7 @@ double shareOf(const std::vector<Range>& ranges, const Moved& moved, int row) {
   for (int end = row == 1 ? 2 : moved.table.rows; row < end; row += 2)
     for (int slice = 0; slice < moved.table.slices; ++slice) {
       const glm::dvec4 texel = texelOf(moved.table, slice, row);
-      all += row == 1 ? texel.w + 1 : texel.x;
+      all += row == 1 ? texel.w + 1 : 16 * std::ceil(std::max(texel.x, 1.0) / 16);
     }
   return in / std::max(all, 1.0);
 }
