@@ -43,11 +43,11 @@ Layers relativeFall(Layers x, Layers passed) {
 }
 
 // The mean density on the way between two exponents, as a share of the greater one: of what lies below the ground that of the ground; above,
-// it falls from the lower end on.
+// it falls from the lower end on. What lies below is never a difference of the two: of a way to the sky it is less than a float's last digit.
 Layers meanShares(Layers a, Layers b) {
-  Layers ground = groundExponents(), above = abs(max(a, ground) - max(b, ground)), width = abs(b - a);
-  Layers share = moreThan(width, above, above / max(width, 1e-37), Layers(1.0)); // of the way that lies above the ground
-  return 1.0 - share + share * relativeFall(above, exp(-above));
+  Layers ground = groundExponents(), above = abs(max(a, ground) - max(b, ground)), below = max(ground - min(a, b), 0.0);
+  Layers mean = (below + above * relativeFall(above, exp(-above))) / max(below + above, 1e-37);
+  return moreThan(above, Layers(0.0), mean, Layers(1.0));
 }
 
 Layers meanDensities(Layers a, Layers b) { return densities(min(a, b)) * meanShares(a, b); }

@@ -66,7 +66,7 @@ Medium twoLayers(const HeightLayer& first, const HeightLayer& second) {
 }
 
 // Of scales from 1e-3 to as good as none; the eye in a layer, far above it with a ground or without, far below where
-// density is 1.
+// density is 1, and below a ground, by little and by most of what is seen.
 std::vector<HeightLayer> layers() {
   return {{kHeight - 0.008, 1e-3},
           {kHeight, 1e-3, kHeight - 0.009},
@@ -75,6 +75,8 @@ std::vector<HeightLayer> layers() {
           {kHeight, 1, kHeight - 2},
           {kHeight - 240, 30},
           {kHeight + 60, 30, kHeight - 1},
+          {kHeight, 0.5, kHeight + 0.1},
+          {kHeight + 2, 0.1, kHeight + 2},
           {kHeight, 1e4},
           {kHeight, 1e9}};
 }
@@ -239,6 +241,27 @@ TEST_CASE("sky below the eye of a layer without ground, without end, is as brigh
       CAPTURE(haze, static_cast<int>(kind));
       CHECK(tests::isFiniteAndNonNegative(got.inscatter));
       CHECK(tests::difference(got.inscatter, wanted.inscatter) <= 1e-4);
+    }
+  }
+}
+
+TEST_CASE("a ray to the sky from below a ground keeps what lies below it") {
+  for (const bool haze : {false, true}) {
+    tests::FrameRig rig(8, 8, std::vector<float>(64, 0.0F));
+    rig.frame.camera.viewFromWorld = tests::lookAt({0, 1, 0}, {0, 4, -10});
+    rig.frame.camera.clipFromView = tests::reversedInfinite(0.4, 1, 0.1);
+    rig.frame.camera.clipDepth = ClipDepth::ZeroToOne;
+    rig.frame.medium = shaftFog(haze);
+    rig.frame.medium.layers = {{0, 3, 5}}; // level 4 above the eye, and thin above that
+    rig.frame.medium.farDistance = kInfinity;
+    rig.frame.ambient.radiance = {1, 1, 1};
+    for (const LightKind kind : {LightKind::Directional, LightKind::Point}) {
+      rig.frame.lights = {shadowed(kind)};
+      rig.frame.lights[0].position = {2, 41, -3};
+      const reference::ImageAnswer got = rig.render(), wanted = rig.reference();
+      CAPTURE(haze, static_cast<int>(kind));
+      CHECK(tests::difference(got.inscatter, wanted.inscatter) <= 1e-4);
+      CHECK(tests::difference(got.transmittance, wanted.transmittance) <= 1e-5);
     }
   }
 }
