@@ -217,6 +217,22 @@ TEST_CASE("avsm: a fitted curve with room for all ends holds them, in any order"
   }
 }
 
+TEST_CASE("avsm: a thick even segment falls as an exponential, not along a line") {
+  if (!tests::hasAvsm()) return;
+  for (const CurveReduction reduction : {CurveReduction::Fitted, CurveReduction::WholeCurve})
+    for (const double passed : {0.5, 0.2, 0.05, 1e-3}) {
+      AvsmRig rig(configOf(reduction, 4));
+      const std::vector<reference::Segment> segments = {{0.25, 0.75, passed}};
+      rig.capture(atTexel(segments, {2, 1, 0}));
+      const Curve curve = rig.curve({2, 1, 0});
+      CAPTURE(static_cast<int>(reduction), passed);
+      checkShape(curve);
+      for (const double depth : {0.3, 0.4, 0.5, 0.6, 0.7})
+        CHECK(tests::curveAt(curve, depth) == Approx(reference::transmittanceAt(segments, depth)).margin(0.02));
+      CHECK(curve.back().y == Approx(passed).epsilon(1e-4));
+    }
+}
+
 TEST_CASE("avsm: as many segments in one texel as a list may hold, in any order") {
   if (!tests::hasAvsm()) return;
   constexpr int kCount = 4096;
