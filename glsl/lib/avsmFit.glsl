@@ -5,6 +5,13 @@
 // Of the stretch from each node to the next: integrals of the transmittance as it was, and of it times the depth from the stretch's begin on.
 vec2 integrals[TYNDALL_CURVE_ROOM];
 
+// Of a stretch from node a to node b that lets so much through in its middle: by Simpson's rule, exact for a line and, as the root of what passes at its
+// ends, for the square that an even medium's transmittance is taken for.
+vec2 integralsBetween(vec2 a, vec2 b, float middle) {
+  float size = b.x - a.x;
+  return vec2(a.y + 4.0 * middle + b.y, (2.0 * middle + b.y) * size) * (size * (1.0 / 6.0));
+}
+
 // Removes an inner node, of those in front of the last one; its stretches become one. It is the node for which the square of the mean difference
 // times the length, which the square of the difference is at least, is least; one that is another again costs nothing.
 void removeCheapestBefore(int last) {

@@ -11,13 +11,11 @@
 
 const int kPairs = (TYNDALL_CURVE_ROOM - 2) / 2; // segments of which all nodes are there
 
-// From all nodes in use, more than are kept, to those. Integrals by Simpson's rule: between all of the ends exact for the square that the
-// transmittance is taken for, an even medium's; else for a line.
+// From all nodes in use, more than are kept, to those. Where all ends are there, what lies between two is even; else as good as a line.
 void removeSpare(bool isEven) {
   for (int i = 0; i < TYNDALL_CURVE_ROOM; ++i) {
-    vec2 a = tyndallCurve[i], b = tyndallCurve[min(i + 1, TYNDALL_CURVE_ROOM - 1)];
-    float size = i + 1 < tyndallUsed ? b.x - a.x : 0.0, middle = isEven ? sqrt(a.y * b.y) : 0.5 * (a.y + b.y);
-    integrals[i] = vec2(a.y + 4.0 * middle + b.y, (2.0 * middle + b.y) * size) * (size * (1.0 / 6.0));
+    vec2 a = tyndallCurve[i], b = i + 1 < tyndallUsed ? tyndallCurve[min(i + 1, TYNDALL_CURVE_ROOM - 1)] : a;
+    integrals[i] = integralsBetween(a, b, isEven ? sqrt(a.y * b.y) : 0.5 * (a.y + b.y));
   }
   for (; tyndallUsed > TYNDALL_CURVE_NODES; --tyndallUsed) removeCheapestBefore(tyndallUsed - 1);
   fitValues();
@@ -54,11 +52,9 @@ void main() {
     part = last ? 0 : part;
     at = last ? tyndallSegments[at].w : at;
   }
+  if (tyndallUsed > TYNDALL_CURVE_NODES) removeSpare(tyndallLists[list].count <= uint(kPairs));
 #else
   for (uint at = tyndallLists[list].head; at != kTyndallEnd; at = tyndallSegments[at].w) tyndallInsertSegment(segmentAt(at));
-#endif
-#if SPARE
-  if (tyndallUsed > TYNDALL_CURVE_NODES) removeSpare(tyndallLists[list].count <= uint(kPairs));
 #endif
   tyndallPadCurve();
   storeCurve(texel);

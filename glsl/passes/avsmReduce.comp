@@ -7,12 +7,6 @@
 #include "lib/avsmImage.glsl"
 #include "lib/avsmWalk.glsl"
 
-// Simpson's rule, exact for the square that the transmittance is taken for.
-vec2 integralsBetween(vec2 a, vec2 b) {
-  float size = b.x - a.x, middle = sqrt(a.y * b.y);
-  return vec2(a.y + 4.0 * middle + b.y, (2.0 * middle + b.y) * size) * (size / 6.0);
-}
-
 // Goes along all ends and keeps TYNDALL_CURVE_NODES of them. Places in no use hold the first node, which is the cheapest to remove as long as there are two.
 void keepNodes(uint list) {
   Walk walk = startWalk(list);
@@ -26,7 +20,7 @@ void keepNodes(uint list) {
     removeCheapestBefore(last);
     vec2 before = tyndallCurve[TYNDALL_CURVE_ROOM - 2], node = nodeOf(walk);
     if (found) {
-      integrals[TYNDALL_CURVE_ROOM - 2] = integralsBetween(before, node);
+      integrals[TYNDALL_CURVE_ROOM - 2] = integralsBetween(before, node, sqrt(before.y * node.y));
       tyndallCurve[TYNDALL_CURVE_ROOM - 1] = node;
     } else {
       --last;

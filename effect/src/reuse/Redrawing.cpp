@@ -31,9 +31,8 @@ void refresh(LightPlanner& light, int frame) {
   light.block.endRefreshedSlice = static_cast<int>(slices * (turn + 1) / period);
 }
 
-// What eight slices share, as changedSlices.frag has them; texels of a row that a fragment makes.
-constexpr std::size_t kTogether = 8;
-constexpr int kGroup = 4;
+constexpr std::size_t kTogether = 8; // slices that share what has changed, as in changedSlices.frag
+constexpr int kGroup = 4;            // texels of a row that a fragment makes
 
 optics::Range rangeOfEight(const std::vector<optics::Range>& ranges, std::size_t first, std::size_t count) {
   optics::Range all;
@@ -60,9 +59,7 @@ void findMoved(LightPlanner& light, const blocks::LightBlock& block) {
   for (std::size_t i = 0; i < slices; i += kTogether) {
     const std::size_t together = std::min(kTogether, slices - i);
     const auto begin = moved.moved.begin() + static_cast<std::ptrdiff_t>(i);
-    if (std::find(begin, begin + static_cast<std::ptrdiff_t>(together), true) ==
-        begin + static_cast<std::ptrdiff_t>(together))
-      continue;
+    if (std::none_of(begin, begin + static_cast<std::ptrdiff_t>(together), [](bool m) { return m; })) continue;
     const auto fill = [&](std::vector<glm::vec4>& to, std::size_t first, const glm::vec4& value) {
       std::fill_n(to.begin() + static_cast<std::ptrdiff_t>(first), together, value);
     };

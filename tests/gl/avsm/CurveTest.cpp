@@ -42,6 +42,21 @@ std::vector<Captured> atTexel(const std::vector<reference::Segment>& segments, c
   return all;
 }
 
+constexpr int kTexels = 8; // across and up, of smoke at each
+
+glm::ivec3 texelOf(int i) { return {i % kTexels, i / kTexels, 0}; }
+
+// Captures smoke of another column in each texel.
+void captureSmoke(AvsmRig& rig) {
+  std::vector<Captured> all;
+  for (int i = 0; i < kTexels * kTexels; ++i)
+    for (const Captured& s : atTexel(smoke(i), texelOf(i)))
+      all.push_back(s);
+  rig.capture(all); // the memory grows
+  rig.capture(all);
+  REQUIRE(rig.avsm().statistics().lost == 0);
+}
+
 void checkShape(const Curve& curve) {
   double depth = 0, passed = 1;
   for (const glm::dvec2& node : curve) {
@@ -104,22 +119,15 @@ TEST_CASE("avsm: segments that overlap multiply, in any order") {
 
 TEST_CASE("avsm: curves fall, stay in [0, 1], keep both ends and get closer with more nodes") {
   if (!tests::hasAvsm()) return;
-  constexpr int kTexels = 8;
   for (const CurveReduction reduction : kReductions)
     for (const bool packed : {false, true}) {
       double last = 1;
       for (const int nodes : {4, 8, 12, 16}) {
         AvsmRig rig(configOf(reduction, kTexels, nodes, packed));
-        std::vector<Captured> all;
-        for (int i = 0; i < kTexels * kTexels; ++i)
-          for (const Captured& s : atTexel(smoke(i), {i % kTexels, i / kTexels, 0}))
-            all.push_back(s);
-        rig.capture(all); // the memory grows
-        rig.capture(all);
-        REQUIRE(rig.avsm().statistics().lost == 0);
+        captureSmoke(rig);
         double sum = 0;
         for (int i = 0; i < kTexels * kTexels; ++i) {
-          const Curve curve = rig.curve({i % kTexels, i / kTexels, 0});
+          const Curve curve = rig.curve(texelOf(i));
           const std::vector<reference::Segment> segments = smoke(i);
           checkShape(curve);
           CHECK(curve.front().y == 1);
@@ -135,20 +143,14 @@ TEST_CASE("avsm: curves fall, stay in [0, 1], keep both ends and get closer with
 
 TEST_CASE("avsm: fitted curves are nearly as near as whole ones, and nearer than the paper's insertion") {
   if (!tests::hasAvsm()) return;
-  constexpr int kTexels = 8;
   for (const int nodes : {4, 8, 12, 16}) {
     std::map<CurveReduction, double> errors;
     for (const CurveReduction reduction :
          {CurveReduction::Fitted, CurveReduction::WholeCurve, CurveReduction::InOrder}) {
       AvsmRig rig(configOf(reduction, kTexels, nodes));
-      std::vector<Captured> all;
+      captureSmoke(rig);
       for (int i = 0; i < kTexels * kTexels; ++i)
-        for (const Captured& s : atTexel(smoke(i), {i % kTexels, i / kTexels, 0}))
-          all.push_back(s);
-      rig.capture(all); // the memory grows
-      rig.capture(all);
-      for (int i = 0; i < kTexels * kTexels; ++i)
-        errors[reduction] += tests::curveError(rig.curve({i % kTexels, i / kTexels, 0}), smoke(i));
+        errors[reduction] += tests::curveError(rig.curve(texelOf(i)), smoke(i));
     }
     CAPTURE(nodes, errors[CurveReduction::WholeCurve], errors[CurveReduction::InOrder]);
     CHECK(errors[CurveReduction::Fitted] < 1.3 * errors[CurveReduction::WholeCurve]);
@@ -158,7 +160,7 @@ TEST_CASE("avsm: fitted curves are nearly as near as whole ones, and nearer than
 
 TEST_CASE("avsm: the order of drawing moves a fitted curve by less than it is off") {
   if (!tests::hasAvsm()) return;
-  constexpr int kTexels = 8, kDepths = 256;
+  constexpr int kDepths = 256;
   std::map<CurveReduction, double> moved, errors;
   for (const CurveReduction reduction : {CurveReduction::Fitted, CurveReduction::InOrder}) {
     AvsmRig rig(configOf(reduction, 2 * kTexels));
@@ -175,8 +177,7 @@ TEST_CASE("avsm: the order of drawing moves a fitted curve by less than it is of
     rig.capture(all);
     REQUIRE(rig.avsm().statistics().lost == 0);
     for (int i = 0; i < kTexels * kTexels; ++i) {
-      const Curve one = rig.curve({i % kTexels, i / kTexels, 0}),
-                  other = rig.curve({i % kTexels, i / kTexels + kTexels, 0});
+      const Curve one = rig.curve(texelOf(i)), other = rig.curve({i % kTexels, i / kTexels + kTexels, 0});
       for (int k = 0; k < kDepths; ++k) {
         const double depth = (k + 0.5) / kDepths, truth = reference::transmittanceAt(smoke(i), depth);
         moved[reduction] += std::abs(tests::curveAt(one, depth) - tests::curveAt(other, depth));

@@ -224,17 +224,27 @@ TEST_CASE("views side by side in one texture show through layers what those of a
     }
 }
 
+namespace {
+
+// All of it sky, through a layer without end.
+tests::FrameRig skyRig(const glm::dvec3& eye, const glm::dvec3& target, const HeightLayer& layer, bool haze) {
+  tests::FrameRig rig(8, 8, std::vector<float>(64, 0.0F));
+  rig.frame.camera.viewFromWorld = tests::lookAt(eye, target);
+  rig.frame.camera.clipFromView = tests::reversedInfinite(0.4, 1, 0.1);
+  rig.frame.camera.clipDepth = ClipDepth::ZeroToOne;
+  rig.frame.medium = shaftFog(haze);
+  rig.frame.medium.layers = {layer};
+  rig.frame.medium.farDistance = kInfinity;
+  return rig;
+}
+
+} // namespace
+
 TEST_CASE("sky below the eye of a layer without ground, without end, is as bright as extinction lets it be") {
-  for (const bool haze : {false, true}) {
-    tests::FrameRig rig(8, 8, std::vector<float>(64, 0.0F));
-    rig.frame.camera.viewFromWorld = tests::lookAt({0, 40, 0}, {0, 0, -30});
-    rig.frame.camera.clipFromView = tests::reversedInfinite(0.4, 1, 0.1);
-    rig.frame.camera.clipDepth = ClipDepth::ZeroToOne;
-    rig.frame.medium = shaftFog(haze);
-    rig.frame.medium.layers = {{0, 3}};
-    rig.frame.medium.constituents[0].scattering[2] = 0;
-    rig.frame.medium.farDistance = kInfinity;
+  for (const bool haze : {false, true})
     for (const LightKind kind : {LightKind::Directional, LightKind::Point}) {
+      tests::FrameRig rig = skyRig({0, 40, 0}, {0, 0, -30}, {0, 3}, haze);
+      rig.frame.medium.constituents[0].scattering[2] = 0;
       rig.frame.lights = {shadowed(kind)};
       rig.frame.lights[0].position = {2, 41, -3};
       const reference::ImageAnswer got = rig.render(), wanted = rig.reference();
@@ -242,20 +252,14 @@ TEST_CASE("sky below the eye of a layer without ground, without end, is as brigh
       CHECK(tests::isFiniteAndNonNegative(got.inscatter));
       CHECK(tests::difference(got.inscatter, wanted.inscatter) <= 1e-4);
     }
-  }
 }
 
 TEST_CASE("a ray to the sky from below a ground keeps what lies below it") {
-  for (const bool haze : {false, true}) {
-    tests::FrameRig rig(8, 8, std::vector<float>(64, 0.0F));
-    rig.frame.camera.viewFromWorld = tests::lookAt({0, 1, 0}, {0, 4, -10});
-    rig.frame.camera.clipFromView = tests::reversedInfinite(0.4, 1, 0.1);
-    rig.frame.camera.clipDepth = ClipDepth::ZeroToOne;
-    rig.frame.medium = shaftFog(haze);
-    rig.frame.medium.layers = {{0, 3, 5}}; // level 4 above the eye, and thin above that
-    rig.frame.medium.farDistance = kInfinity;
-    rig.frame.ambient.radiance = {1, 1, 1};
+  for (const bool haze : {false, true})
     for (const LightKind kind : {LightKind::Directional, LightKind::Point}) {
+      tests::FrameRig rig =
+          skyRig({0, 1, 0}, {0, 4, -10}, {0, 3, 5}, haze); // level 4 above the eye, and thin above that
+      rig.frame.ambient.radiance = {1, 1, 1};
       rig.frame.lights = {shadowed(kind)};
       rig.frame.lights[0].position = {2, 41, -3};
       const reference::ImageAnswer got = rig.render(), wanted = rig.reference();
@@ -263,7 +267,6 @@ TEST_CASE("a ray to the sky from below a ground keeps what lies below it") {
       CHECK(tests::difference(got.inscatter, wanted.inscatter) <= 1e-4);
       CHECK(tests::difference(got.transmittance, wanted.transmittance) <= 1e-5);
     }
-  }
 }
 
 TEST_CASE("a layer whose scale grows without end becomes an even medium") {

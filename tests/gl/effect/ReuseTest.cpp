@@ -7,74 +7,60 @@
 using namespace tyndall;
 using namespace tests::reuse;
 
-TEST_CASE("reused frames are the frames in full, by every light, filter and way to tell what moved", "[sweep]") {
-  struct Case {
-    Light light;
-    bool glass;
-    ShadowFilter filter;
-    int cascades;
-  };
-  const auto nearest = ShadowFilter::Nearest, bilinear = ShadowFilter::Bilinear;
-  for (const Case& item :
-       {Case{sun(), false, nearest, 1}, Case{sun(), true, nearest, 1}, Case{sun(), true, bilinear, 1},
-        Case{sun(), false, bilinear, 3}, Case{spot(), false, nearest, 1}, Case{spot(), true, bilinear, 1},
-        Case{point(), false, nearest, 1}})
-    for (const Changes changes : {Changes::Detect, Changes::Objects}) {
-      CAPTURE(static_cast<int>(item.light.kind), item.glass, static_cast<int>(item.filter), item.cascades,
-              static_cast<int>(changes));
-      tests::ShaftRig rig(96, 64);
-      Light light = item.light;
-      if (item.cascades > 1) light.shadow.views = tests::shadowViews(light, item.cascades);
-      rig.addLight(light, 128, item.glass);
-      rig.scene.frame.settings.shadowFilter = item.filter;
-      begin(rig, changes);
-      int parts = 0;
-      for (int frame = 0; frame < 8; ++frame) {
-        CAPTURE(frame);
-        moveTo(rig, frame);
-        const Picture picture = reused(rig);
-        checkSame(picture, full(rig));
-        if (picture.share > 0 && picture.share < 1) ++parts;
-      }
-      CHECK(parts == 7);
-    }
+namespace {
+
+constexpr ShadowFilter kNearest = ShadowFilter::Nearest, kBilinear = ShadowFilter::Bilinear;
+
+struct Case {
+  Light light;
+  bool glass;
+  ShadowFilter filter;
+  int cascades;
+};
+
+// Frames of a box that tumbles, reused and in full; what moved is told in a frame as the ways say, one after the other.
+void checkReused(const Case& item, int map, int frames, const std::vector<Changes>& ways, int slices = 0) {
+  CAPTURE(static_cast<int>(item.light.kind), item.glass, static_cast<int>(item.filter), item.cascades, slices);
+  tests::ShaftRig rig(96, 64);
+  Light light = item.light;
+  if (item.cascades > 1) light.shadow.views = tests::shadowViews(light, item.cascades);
+  rig.addLight(light, map, item.glass);
+  rig.scene.frame.settings.shadowFilter = item.filter;
+  if (slices > 0) rig.scene.frame.settings.slices = slices;
+  begin(rig, ways[0]);
+  int parts = 0;
+  for (int frame = 0; frame < frames; ++frame) {
+    rig.scene.frame.reuse.changes = ways[static_cast<std::size_t>(frame) % ways.size()];
+    CAPTURE(frame, static_cast<int>(rig.scene.frame.reuse.changes));
+    moveTo(rig, frame);
+    const Picture picture = reused(rig);
+    checkSame(picture, full(rig));
+    if (picture.share > 0 && picture.share < 1) ++parts;
+  }
+  CHECK(parts == frames - 1);
 }
 
-// In maps of 1024 texels only those parts of rows are made that an object can have changed; 67 slices are not so many
-// eights, so that rows of one view stand beside another's in a group; and what was compared of a part is followed by
-// what was of all.
+} // namespace
+
+TEST_CASE("reused frames are the frames in full, by every light, filter and way to tell what moved", "[sweep]") {
+  for (const Case& item :
+       {Case{sun(), false, kNearest, 1}, Case{sun(), true, kNearest, 1}, Case{sun(), true, kBilinear, 1},
+        Case{sun(), false, kBilinear, 3}, Case{spot(), false, kNearest, 1}, Case{spot(), true, kBilinear, 1},
+        Case{point(), false, kNearest, 1}})
+    for (const Changes changes : {Changes::Detect, Changes::Objects})
+      checkReused(item, 128, 8, {changes});
+}
+
+// In maps of 1024 texels only those parts of rows are made that an object can have changed; 65 and 67 slices are not so
+// many eights, so that rows of one view stand beside another's in a group; and what was compared of a part is followed
+// by what was of all.
 TEST_CASE("parts of rows in several views, by slices that are no eights, with what moved named and detected in turn",
           "[sweep]") {
-  struct Case {
-    Light light;
-    bool glass;
-    ShadowFilter filter;
-    int cascades;
-  };
-  const auto nearest = ShadowFilter::Nearest, bilinear = ShadowFilter::Bilinear;
   for (const Case& item :
-       {Case{sun(), false, nearest, 3}, Case{sun(), true, bilinear, 1}, Case{sun(), false, bilinear, 4},
-        Case{point(), false, nearest, 1}, Case{spot(), true, nearest, 1}})
-    for (const int slices : {65, 67}) {
-      CAPTURE(static_cast<int>(item.light.kind), item.glass, static_cast<int>(item.filter), item.cascades, slices);
-      tests::ShaftRig rig(96, 64);
-      Light light = item.light;
-      if (item.cascades > 1) light.shadow.views = tests::shadowViews(light, item.cascades);
-      rig.addLight(light, 1024, item.glass);
-      rig.scene.frame.settings.shadowFilter = item.filter;
-      rig.scene.frame.settings.slices = slices;
-      begin(rig, Changes::Objects);
-      int parts = 0;
-      for (int frame = 0; frame < 7; ++frame) {
-        CAPTURE(frame);
-        rig.scene.frame.reuse.changes = frame % 3 == 2 ? Changes::Detect : Changes::Objects;
-        moveTo(rig, frame);
-        const Picture picture = reused(rig);
-        checkSame(picture, full(rig));
-        if (picture.share > 0 && picture.share < 1) ++parts;
-      }
-      CHECK(parts == 6);
-    }
+       {Case{sun(), false, kNearest, 3}, Case{sun(), true, kBilinear, 1}, Case{sun(), false, kBilinear, 4},
+        Case{point(), false, kNearest, 1}, Case{spot(), true, kNearest, 1}})
+    for (const int slices : {65, 67})
+      checkReused(item, 1024, 7, {Changes::Objects, Changes::Objects, Changes::Detect}, slices);
 }
 
 namespace {
